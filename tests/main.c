@@ -22,7 +22,7 @@ static struct CMUnitTest tests[TESTS_MAX];
 static size_t groups_count, tests_count;
 
 /* Return the group of a file; the tests of a file are added in a row. */
-static struct group *group_of(const char *file)
+static struct group *find_group(const char *file)
 {
     if (groups_count == 0 || strcmp(groups[groups_count - 1].file, file) != 0) {
         assert_true(groups_count < GROUPS_MAX);
@@ -35,13 +35,13 @@ void test_add(const char *file, const char *name, CMUnitTestFunction test, CMFix
               CMFixtureFunction tear_down)
 {
     assert_true(tests_count < TESTS_MAX);
-    group_of(file)->count++;
+    find_group(file)->count++;
     tests[tests_count++] = (struct CMUnitTest){name, test, set_up, tear_down, NULL};
 }
 
 void test_around(const char *file, CMFixtureFunction set_up, CMFixtureFunction tear_down)
 {
-    struct group *group = group_of(file);
+    struct group *group = find_group(file);
     group->set_up = set_up;
     group->tear_down = tear_down;
 }

@@ -14,7 +14,7 @@
 #define VALUES 3
 #define CUT    250
 
-static void try_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint64_t rocks)
+static void fit_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint64_t rocks)
 {
     struct ceduo_calibration a;
     double truth[QUARRY_VALUES_MAX], start = processor_s();
@@ -48,8 +48,8 @@ int main(int argc, char **argv)
         printf(",%s,%s_lo,%s_hi,%s_determined", quarry_names[i], quarry_names[i], quarry_names[i], quarry_names[i]);
     printf("\n");
     for (size_t i = first; i < first + sites; i++) {
-        try_site(i, CEDUO_LAW_LUMPED, 50, rocks);
-        try_site(i, CEDUO_LAW_CRSP, 200, rocks);
+        fit_site(i, CEDUO_LAW_LUMPED, 50, rocks);
+        fit_site(i, CEDUO_LAW_CRSP, 200, rocks);
     }
     return 0;
 }

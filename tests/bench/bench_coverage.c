@@ -55,17 +55,17 @@ struct woods {
     struct paper_site site, half;
 };
 
-static struct figure about(double value, double se)
+static struct figure precision(double value, double se)
 {
     return (struct figure){value, value - CEDUO_Z95 * se, value + CEDUO_Z95 * se};
 }
 
-static struct ceduo_run *fly(const struct paper_site *site, const struct ceduo_option *option, uint64_t rocks)
+static struct ceduo_run *simulate(const struct paper_site *site, const struct ceduo_option *option, uint64_t rocks)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.option = option;
     def.rocks_most = rocks;
-    return fly_run(&def, rocks);
+    return simulate_run(&def, rocks);
 }
 
 static void read_run(const struct ceduo_run *run, struct figure *to)
@@ -73,26 +73,26 @@ static void read_run(const struct ceduo_run *run, struct figure *to)
     struct ceduo_arrivals a;
     if (ceduo_run_arrivals(run, 0, &a) != CEDUO_OK)
         fail("no memory");
-    to[0] = about(a.energy.mean, a.energy.se);
+    to[0] = precision(a.energy.mean, a.energy.se);
     to[1] = (struct figure){a.energy.p95, a.energy.p95_lo, a.energy.p95_hi};
     to[2] = (struct figure){a.reach.mean, a.reach.lo, a.reach.hi};
     to[3] = (struct figure){a.exceed.mean, a.exceed.lo, a.exceed.hi};
-    to[4] = about(a.energy_per_released.mean, a.energy_per_released.se);
+    to[4] = precision(a.energy_per_released.mean, a.energy_per_released.se);
     if (!isnan(a.contacts.mean))
-        to[5] = about(a.contacts.mean, a.contacts.se);
+        to[5] = precision(a.contacts.mean, a.contacts.se);
 }
 
-static void fly_all(struct woods *w, uint64_t seed, uint64_t rocks, struct figure figures[FIGURES])
+static void simulate_all(struct woods *w, uint64_t seed, uint64_t rocks, struct figure figures[FIGURES])
 {
     w->site.scene.simulation.seed = seed;
-    struct ceduo_run *bare = fly(&w->site, NULL, rocks), *wood = fly(&w->site, &w->site.option, rocks),
-                     *half = fly(&w->site, &w->half.option, rocks);
+    struct ceduo_run *bare = simulate(&w->site, NULL, rocks), *wood = simulate(&w->site, &w->site.option, rocks),
+                     *half = simulate(&w->site, &w->half.option, rocks);
     read_run(bare, &figures[BARE_MEAN]);
     read_run(wood, &figures[WOOD_MEAN]);
     struct ceduo_difference d = ceduo_run_difference(half, wood, 0);
-    figures[LESS_REACH] = about(d.reach.mean, d.reach.se);
-    figures[LESS_EXCEED] = about(d.exceed.mean, d.exceed.se);
-    figures[LESS_RELEASED] = about(d.energy_per_released.mean, d.energy_per_released.se);
+    figures[LESS_REACH] = precision(d.reach.mean, d.reach.se);
+    figures[LESS_EXCEED] = precision(d.exceed.mean, d.exceed.se);
+    figures[LESS_RELEASED] = precision(d.energy_per_released.mean, d.energy_per_released.se);
     ceduo_run_free(bare);
     ceduo_run_free(wood);
     ceduo_run_free(half);
@@ -142,9 +142,9 @@ int main(int argc, char **argv)
     init(&w);
     struct figure truth[FIGURES], figures[FIGURES];
     static struct found found[FIGURES];
-    fly_all(&w, 1u << 20, TRUE_ROCKS, truth);
+    simulate_all(&w, 1u << 20, TRUE_ROCKS, truth);
     for (uint64_t i = 0; i < repeats; i++) {
-        fly_all(&w, i + 1, rocks, figures);
+        simulate_all(&w, i + 1, rocks, figures);
         for (int k = 0; k < FIGURES; k++)
             note(&found[k], &figures[k], truth[k].value);
     }

@@ -32,7 +32,7 @@ struct row {
     size_t repeats;
 };
 
-static size_t repeats_of(size_t asked, uint64_t rocks)
+static size_t choose_repeats(size_t asked, uint64_t rocks)
 {
     double n = (double)asked * 1000 / (double)rocks * 10;
     return n > 4.0 * (double)asked ? 4 * asked : n < 10 ? 10 : (size_t)n;
@@ -48,7 +48,7 @@ static double run_core(struct paper_site *site, bool stems, uint64_t rocks, uint
     double start = ceduo_clock();
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.option = stems ? &site->option : NULL;
-    struct ceduo_run *run = fly_run(&def, rocks);
+    struct ceduo_run *run = simulate_run(&def, rocks);
     struct ceduo_arrivals a;
     if (ceduo_run_arrivals(run, 0, &a) != CEDUO_OK)
         fail("no memory");
@@ -93,7 +93,7 @@ static void measure_core(const char *what, bool stems, size_t asked, uint64_t mo
     double truth[QUANTITIES], true_se[QUANTITIES];
     run_core(&site, stems, stems ? TRUE_ROCKS_STEMS : TRUE_ROCKS, 1u << 20, truth, true_se);
     for (uint64_t rocks = 100; rocks <= most; rocks *= 10) {
-        struct row row = {.repeats = repeats_of(asked, rocks)};
+        struct row row = {.repeats = choose_repeats(asked, rocks)};
         for (size_t i = 0; i < row.repeats; i++) {
             double value[QUANTITIES], se[QUANTITIES];
             row.seconds += run_core(&site, stems, rocks, i + 1, value, se);
@@ -205,7 +205,7 @@ static void measure_numbers(const char *what, bool spread, size_t asked)
         true_se[q] = (q == MEAN || q == P95 ? truth[q] * 0.3 : 0.5) / sqrt(PLAIN_TRUE_ROCKS);
     for (uint64_t rocks = 100; rocks <= 100000; rocks *= 10) {
         struct row rows[NUMBERS] = {{0}};
-        size_t repeats = repeats_of(asked, rocks);
+        size_t repeats = choose_repeats(asked, rocks);
         for (size_t i = 0; i < repeats; i++)
             for (int k = 0; k < NUMBERS; k++) { /* by turns, so that other load slows all equally */
                 double value[QUANTITIES];

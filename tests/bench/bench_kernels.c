@@ -45,8 +45,8 @@ struct measure {
     double energy; /* J, at the last control */
 };
 
-static void fly(const struct ceduo_scene *scene, const struct ceduo_option *option, struct measure *m, uint64_t rocks,
-                size_t repeat)
+static void simulate(const struct ceduo_scene *scene, const struct ceduo_option *option, struct measure *m, uint64_t rocks,
+                     size_t repeat)
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     uint64_t reached;
@@ -54,7 +54,7 @@ static void fly(const struct ceduo_scene *scene, const struct ceduo_option *opti
     def.rocks_most = rocks;
     def.kernel = m->kernel;
     double start = processor_s();
-    struct ceduo_run *run = fly_run(&def, rocks);
+    struct ceduo_run *run = simulate_run(&def, rocks);
     m->seconds[repeat] = processor_s() - start;
     m->contacts = ceduo_run_contacts(run);
     m->stems = ceduo_run_stems(run);
@@ -93,8 +93,8 @@ static bool measure_place(const struct place *place, size_t repeats, uint64_t ro
     best.kernel = CEDUO_KERNEL_BEST;
     plain.kernel = CEDUO_KERNEL_SCALAR;
     for (size_t r = 0; r < repeats; r++) {
-        fly(&scene, place->first == NO_FOREST ? NULL : &option, &best, rocks, r);
-        fly(&scene, place->first == NO_FOREST ? NULL : &option, &plain, rocks, r);
+        simulate(&scene, place->first == NO_FOREST ? NULL : &option, &best, rocks, r);
+        simulate(&scene, place->first == NO_FOREST ? NULL : &option, &plain, rocks, r);
     }
     double best_s = median(best.seconds, repeats), plain_s = median(plain.seconds, repeats), ratio = best_s / plain_s;
     printf("\"%s\",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.4f,%.4f,%.3f\n", place->name, rocks, best.contacts, best.stems.hit,

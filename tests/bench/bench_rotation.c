@@ -12,7 +12,7 @@
 #define GOAL_SECONDS 2 /* with 10 000 rocks on two cores */
 
 /* Simulate all options and years from a parsed scene; the amount of work goes to *work. */
-static void fly(const struct ceduo_scene *scene, unsigned threads, uint64_t rocks, struct ceduo_work *work)
+static void simulate(const struct ceduo_scene *scene, unsigned threads, uint64_t rocks, struct ceduo_work *work)
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.threads = threads;
@@ -44,7 +44,7 @@ static void measure(const char *path, size_t repeats, uint64_t rocks, unsigned t
     struct timing t;
     for (size_t r = 0; r < repeats; r++) {
         timing_begin(&t);
-        fly(&file.scene, threads, rocks, &work);
+        simulate(&file.scene, threads, rocks, &work);
         timing_end(&t, r);
     }
     printf("%s,%zu,%d,%" PRIu64 ",%u,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.3f,%.3f,%d\n", path, file.scene.options_count,

@@ -46,7 +46,7 @@ static void note(void *context, const struct ceduo_trajectory_segment *p)
     }
 }
 
-static void fly(struct ceduo_tracer *f, uint64_t rock, int mode, struct track *t)
+static void simulate(struct ceduo_tracer *f, uint64_t rock, int mode, struct track *t)
 {
     t->contacts = 0;
     fesetround(mode);
@@ -89,7 +89,7 @@ static void compare(const char *name, const struct paper_site *site, const char 
         fail("no memory");
     for (uint64_t rock = 0; rock < rocks; rock++) {
         for (int k = 0; k < 2; k++) {
-            fly(f, rock, k == 0 ? FE_TONEAREST : mode, &t[k]);
+            simulate(f, rock, k == 0 ? FE_TONEAREST : mode, &t[k]);
             const struct ceduo_crossing *c = &t[k].crossing;
             mass = t[k].way.rock.mass;
             if (c->reached) {

@@ -38,19 +38,19 @@ static double height(const struct ground *g, double x, double z, size_t *segment
     return z - (g->vertices[j].z + g->segments[j].m * (x - g->vertices[j].x));
 }
 
-static double by_quadratic(const struct ground *g, const struct launch *l, double step)
+static double solve_quadratic(const struct ground *g, const struct launch *l, double step)
 {
     (void)step;
     return next_landing(g, &l->from).x;
 }
 
 /* Return x of the intersection of the line from (x0, h0 >= 0) to (x1, h1 < 0) with the ground. */
-static double cross(double x0, double h0, double x1, double h1)
+static double intersect_ground(double x0, double h0, double x1, double h1)
 {
     return x0 + (x1 - x0) * h0 / (h0 - h1);
 }
 
-static double by_parabola_steps(const struct ground *g, const struct launch *l, double step)
+static double step_parabola(const struct ground *g, const struct launch *l, double step)
 {
     const struct flight *f = &l->from;
     size_t segment = f->segment;
@@ -59,14 +59,14 @@ static double by_parabola_steps(const struct ground *g, const struct launch *l, 
         double t = (double)i * step, x = f->x + f->vx * t, z = f->z + (f->vz - g->half_g * t) * t;
         double h = height(g, x, z, &segment);
         if (h < 0)
-            return cross(x0, h0, x, h);
+            return intersect_ground(x0, h0, x, h);
         x0 = x;
         h0 = h;
     }
     return NAN;
 }
 
-static double by_euler(const struct ground *g, const struct launch *l, double step)
+static double step_euler(const struct ground *g, const struct launch *l, double step)
 {
     double x = l->from.x, z = l->from.z, vz = l->from.vz, h0 = 0;
     size_t segment = l->from.segment;
@@ -77,7 +77,7 @@ static double by_euler(const struct ground *g, const struct launch *l, double st
         z += vz * step;
         double h = height(g, x, z, &segment);
         if (h < 0)
-            return cross(x0, h0, x, h);
+            return intersect_ground(x0, h0, x, h);
         h0 = h;
     }
     return NAN;
@@ -94,7 +94,7 @@ static int falling(double t, const double y[], double dydt[], void *params)
 }
 
 /* Integrate with GSL's driver. A step is at most a tenth of a second: longer steps pass over corners. */
-static double by_gsl(const struct ground *g, const struct launch *l, double tolerance)
+static double step_gsl(const struct ground *g, const struct launch *l, double tolerance)
 {
     double gravity = g->gravity, t = 0, result = NAN;
     gsl_odeiv2_system system = {falling, NULL, 4, &gravity};
@@ -112,7 +112,7 @@ static double by_gsl(const struct ground *g, const struct launch *l, double tole
             continue;
         }
         if (step <= tolerance || step < 1e-12) {
-            result = cross(before[0], h0, y[0], h);
+            result = intersect_ground(before[0], h0, y[0], h);
             break;
         }
         for (int k = 0; k < 4; k++) /* step back, then halve */
@@ -173,12 +173,12 @@ int main(int argc, char **argv)
     }
     puts("what,step_s_or_tolerance,flights,ns_per_flight,rms_error_m,largest_error_m,beyond_1_m");
     for (int repeat = 0; repeat < 200; repeat++) /* warm, and long enough to time */
-        by_quadratic(&g, &launches[(size_t)repeat % n], 0);
-    measure(&g, launches, n, "exact", 0, by_quadratic);
+        solve_quadratic(&g, &launches[(size_t)repeat % n], 0);
+    measure(&g, launches, n, "exact", 0, solve_quadratic);
     for (double step = 1e-1; step > 0.9e-5; step /= 10) {
-        measure(&g, launches, n, "parabola-steps", step, by_parabola_steps);
-        measure(&g, launches, n, "euler-steps", step, by_euler);
-        measure(&g, launches, n, "gsl-rkf45", step, by_gsl);
+        measure(&g, launches, n, "parabola-steps", step, step_parabola);
+        measure(&g, launches, n, "euler-steps", step, step_euler);
+        measure(&g, launches, n, "gsl-rkf45", step, step_gsl);
     }
     free(launches);
     ceduo_ground_release(&g);

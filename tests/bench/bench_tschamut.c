@@ -57,7 +57,7 @@ static void set_ground(struct ceduo_scene *scene, const double at[VALUES])
     }
 }
 
-static void look_at(struct site *site, struct fit *f, size_t from, size_t to, uint64_t rocks)
+static void evaluate(struct site *site, struct fit *f, size_t from, size_t to, uint64_t rocks)
 {
     set_ground(&site->file.scene, f->at);
     for (size_t b = from; b < to; b++) {
@@ -75,7 +75,7 @@ static void look_at(struct site *site, struct fit *f, size_t from, size_t to, ui
         f->misfit = fmax(f->misfit, f->distance[b] / site->band[b]);
 }
 
-static double misfit_at(const gsl_vector *v, void *context)
+static double compute_misfit(const gsl_vector *v, void *context)
 {
     struct site *site = context;
     struct fit f;
@@ -84,16 +84,16 @@ static double misfit_at(const gsl_vector *v, void *context)
         if (!(f.at[i] >= site->lo[i] && f.at[i] <= site->hi[i]))
             return 10;
     }
-    look_at(site, &f, 0, site->blocks, site->rocks);
+    evaluate(site, &f, 0, site->blocks, site->rocks);
     return f.misfit;
 }
 
 /* Minimise the distance from a start point. */
-static void descend(struct site *site, struct fit *f)
+static void minimise(struct site *site, struct fit *f)
 {
     gsl_vector *at = gsl_vector_alloc(VALUES), *step = gsl_vector_alloc(VALUES);
     gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, VALUES);
-    gsl_multimin_function function = {.f = misfit_at, .n = VALUES, .params = site};
+    gsl_multimin_function function = {.f = compute_misfit, .n = VALUES, .params = site};
     for (size_t i = 0; i < VALUES; i++) {
         double width = site->hi[i] - site->lo[i];
         gsl_vector_set(at, i, f->at[i]);
@@ -110,21 +110,21 @@ static void descend(struct site *site, struct fit *f)
     gsl_vector_free(at);
 }
 
-static int by_misfit(const void *a, const void *b)
+static int compare_misfits(const void *a, const void *b)
 {
     const struct fit *f = a, *g = b;
     return (f->misfit > g->misfit) - (f->misfit < g->misfit);
 }
 
 /* Return the best of three simplexes from the best points. */
-static struct fit best_of(struct site *site, struct fit *points, size_t n, size_t blocks)
+static struct fit find_best(struct site *site, struct fit *points, size_t n, size_t blocks)
 {
     site->blocks = blocks;
-    qsort(points, n, sizeof *points, by_misfit);
+    qsort(points, n, sizeof *points, compare_misfits);
     struct fit best = points[0];
     for (size_t i = 0; i < STARTS && i < n; i++) {
         struct fit f = points[i];
-        descend(site, &f);
+        minimise(site, &f);
         if (f.misfit < best.misfit)
             best = f;
     }
@@ -137,7 +137,7 @@ static void print_fit(struct site *site, const char *what, const char *law, stru
 {
     uint64_t seed = site->file.scene.simulation.seed;
     site->file.scene.simulation.seed = seed + 1;
-    look_at(site, &f, 0, BLOCKS, 10 * site->rocks);
+    evaluate(site, &f, 0, BLOCKS, 10 * site->rocks);
     site->file.scene.simulation.seed = seed;
     printf("%s,%s,%.3f,%.3f,%.3f,%.3f", what, law, f.at[0], f.at[1], f.at[2], f.at[3]);
     for (size_t b = 0; b < BLOCKS; b++)
@@ -180,17 +180,17 @@ static void measure_law(struct site *site, enum ceduo_law law, const char *name,
         gsl_qrng_get(sobol, u);
         for (size_t i = 0; i < VALUES; i++)
             points[p].at[i] = site->lo[i] + u[i] * (site->hi[i] - site->lo[i]);
-        look_at(site, &points[p], 0, 1, site->rocks);
+        evaluate(site, &points[p], 0, 1, site->rocks);
     }
     gsl_qrng_free(sobol);
-    print_fit(site, "block1", name, best_of(site, points, n, 1));
+    print_fit(site, "block1", name, find_best(site, points, n, 1));
     for (size_t p = 0; p < n; p++)
         if (points[p].distance[0] <= 2 * site->band[0])
-            look_at(site, &points[p], 1, BLOCKS, site->rocks);
+            evaluate(site, &points[p], 1, BLOCKS, site->rocks);
         else
             points[p].distance[1] = points[p].distance[2] = points[p].misfit = INFINITY;
     print_shares(site, name, points, n);
-    print_fit(site, "all", name, best_of(site, points, n, BLOCKS));
+    print_fit(site, "all", name, find_best(site, points, n, BLOCKS));
 }
 
 static void read_site(struct site *site)
@@ -202,7 +202,7 @@ static void read_site(struct site *site)
     if (ceduo_observer_create(site->seen, BLOCKS, &site->observer) != CEDUO_OK)
         fail("no memory");
     for (size_t b = 0; b < BLOCKS; b++)
-        site->band[b] = stops_band(site->seen[b].n);
+        site->band[b] = stops_limit(site->seen[b].n);
 }
 
 /* Replace every block by a sphere of the same mean diameter. */

@@ -36,7 +36,7 @@ static struct scene_inputs inputs;
 
 /* ---- surface ---- */
 
-static void by_surface(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
+static void measure_surface(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
 {
     const struct ceduo_uncertainty_def def = {.scene = &file.scene,
                                               .inputs_count = inputs.n,
@@ -106,7 +106,7 @@ static void read_band(double *y, size_t n, struct found *found)
 }
 
 /* `more_rocks`: evaluate the band again with this many rocks. */
-static void draw_anew(size_t n, uint64_t rocks, uint64_t more_rocks, uint64_t seed, struct found *found)
+static void redraw_inputs(size_t n, uint64_t rocks, uint64_t more_rocks, uint64_t seed, struct found *found)
 {
     size_t rows = n * (inputs.n + 2);
     double *u = malloc(rows * inputs.n * sizeof *u), *y = malloc(rows * sizeof *y), start = processor_s();
@@ -130,9 +130,9 @@ static void draw_anew(size_t n, uint64_t rocks, uint64_t more_rocks, uint64_t se
     free(y);
 }
 
-static void by_drawing_anew(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
+static void measure_redraws(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
 {
-    draw_anew(points, rocks, 0, seed, found);
+    redraw_inputs(points, rocks, 0, seed, found);
 }
 
 /* ---- errors ---- */
@@ -143,10 +143,10 @@ static const struct design {
     size_t points;
     uint64_t rocks;
     size_t times; /* factor for the number of seeds */
-} designs[] = {{"surface", by_surface, 64, 400, 20},         {"surface", by_surface, 256, 400, 20},
-               {"surface", by_surface, 1024, 400, 1},        {"surface", by_surface, 256, 1600, 1},
-               {"drawn anew", by_drawing_anew, 16, 400, 1},  {"drawn anew", by_drawing_anew, 64, 400, 1},
-               {"drawn anew", by_drawing_anew, 256, 400, 1}, {"drawn anew", by_drawing_anew, 64, 1600, 1}};
+} designs[] = {{"surface", measure_surface, 64, 400, 20},    {"surface", measure_surface, 256, 400, 20},
+               {"surface", measure_surface, 1024, 400, 1},   {"surface", measure_surface, 256, 1600, 1},
+               {"drawn anew", measure_redraws, 16, 400, 1},  {"drawn anew", measure_redraws, 64, 400, 1},
+               {"drawn anew", measure_redraws, 256, 400, 1}, {"drawn anew", measure_redraws, 64, 1600, 1}};
 
 /* Sums of squared errors, and counts of errors within 1.96 of the reported one. */
 struct errors {
@@ -175,7 +175,7 @@ static void measure(const struct design *d, size_t seeds, const struct found *tr
     }
     printf("%s,%zu,%" PRIu64 ",%" PRIu64 ",%.3f,%.2f,%.2f,", d->name, d->points, d->rocks, found.evaluations,
            seconds / (double)(seeds * d->times), 1000 * sqrt(band.squares / band.n), 100 * sqrt(shares.squares / shares.n));
-    printf(d->by == by_surface ? "%.1f,%.1f\n" : ",\n", 100 * band.held / band.n, 100 * shares.held / shares.n);
+    printf(d->by == measure_surface ? "%.1f,%.1f\n" : ",\n", 100 * band.held / band.n, 100 * shares.held / shares.n);
     fflush(stdout);
 }
 
@@ -187,7 +187,7 @@ int main(int argc, char **argv)
     read_scene(&file, "profiles/scenes/paper-site.yaml");
     if (!ceduo_inputs_collect(&file, &inputs) || inputs.n > INPUTS_MAX)
         fail("the inputs cannot be read");
-    draw_anew(true_points, TRUE_ROCKS, TRUE_BAND_ROCKS, 1, &truth);
+    redraw_inputs(true_points, TRUE_ROCKS, TRUE_BAND_ROCKS, 1, &truth);
     puts("design,points,rocks,scenes,cpu_seconds,band_of_1000,shares_percent,band_held_percent,shares_held_percent");
     for (size_t i = 0; i < sizeof designs / sizeof designs[0]; i++)
         measure(&designs[i], seeds, &truth);

@@ -33,8 +33,8 @@ static size_t clear_best(const struct ceduo_leader *leader)
     return leader->known && leader->rivals == 0 ? leader->best : NOBODY;
 }
 
-static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsigned threads, size_t step, struct said *today,
-                 struct said *rotation)
+static void record(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsigned threads, size_t step, struct said *today,
+                   struct said *rotation)
 {
     struct ceduo_request q = ceduo_request_default(scene);
     struct ceduo_results answer;
@@ -81,7 +81,7 @@ static size_t judge(const char *name, size_t seeds, unsigned threads)
         struct said now, over;
         file.scene.simulation.seed = seed;
         for (size_t step = 0; step < STEPS; step++)
-            look(&file.scene, &pool, threads, step, &now, &over);
+            record(&file.scene, &pool, threads, step, &now, &over);
         ceduo_pool_free(pool);
         count(&now, &today);
         count(&over, &rotation);

@@ -88,7 +88,7 @@ static double time_core(const struct site *site, struct measure *m)
     struct ceduo_run_def def = ceduo_run_def_default(&site->paper.scene);
     def.threads = m->threads;
     def.kernel = m->kernel;
-    struct ceduo_run *run = fly_run(&def, m->rocks);
+    struct ceduo_run *run = simulate_run(&def, m->rocks);
     double seconds = ceduo_clock() - start;
     m->contacts = ceduo_run_contacts(run);
     if (ceduo_run_arrivals(run, 0, &m->arrivals) != CEDUO_OK)
@@ -107,7 +107,7 @@ static void print_line(const struct site *site, const char *what, uint64_t rocks
 /* ---- agreement ---- */
 
 /* Compute mean and standard error from sums. */
-static void mean_of(double sum, double sum2, double n, double *mean, double *se)
+static void compute_mean(double sum, double sum2, double n, double *mean, double *se)
 {
     *mean = sum / n;
     *se = sqrt((sum2 / n - *mean * *mean) / (n - 1));
@@ -128,14 +128,14 @@ static bool check_agreement(const struct site *site, const struct measure *m)
     const struct ceduo_arrivals *a = &m->arrivals;
     double rocks = (double)p->rocks, passed = (double)p->passed, released = (double)a->released, mean, se;
     double core_contacts = (double)m->contacts / released;
-    mean_of((double)p->contacts, p->contacts2, rocks, &mean, &se);
+    compute_mean((double)p->contacts, p->contacts2, rocks, &mean, &se);
     bool good = agrees(site, "contacts per rock", mean, se, core_contacts, se * sqrt(rocks / released));
     double share = passed / rocks, both = (passed + (double)a->reached) / (rocks + released);
     double spread = sqrt(both * (1 - both)) + 1e-300; /* no spread if all pass: they agree */
     good &= agrees(site, "share that passes", share, spread / sqrt(rocks), a->reach.mean, spread / sqrt(released));
-    mean_of(p->speed, p->speed2, passed, &mean, &se);
+    compute_mean(p->speed, p->speed2, passed, &mean, &se);
     good &= agrees(site, "speed, m/s", mean, se, a->speed.mean, a->speed.se);
-    mean_of(p->energy / 1e3, p->energy2 / 1e6, passed, &mean, &se);
+    compute_mean(p->energy / 1e3, p->energy2 / 1e6, passed, &mean, &se);
     return agrees(site, "energy, kJ", mean, se, a->energy.mean / 1e3, a->energy.se / 1e3) && good;
 }
 

@@ -55,7 +55,7 @@ void read_scene(struct scene_file *file, const char *path)
     ceduo_problems_free(&problems);
 }
 
-struct ceduo_run *fly_run(const struct ceduo_run_def *def, uint64_t rocks)
+struct ceduo_run *simulate_run(const struct ceduo_run_def *def, uint64_t rocks)
 {
     struct ceduo_run *run;
     if (ceduo_run_create(def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK)

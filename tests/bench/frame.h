@@ -28,7 +28,7 @@ void timing_begin(struct timing *t);
 void timing_end(struct timing *t, size_t repeat);
 
 void read_scene(struct scene_file *file, const char *path);
-struct ceduo_run *fly_run(const struct ceduo_run_def *def, uint64_t rocks);
+struct ceduo_run *simulate_run(const struct ceduo_run_def *def, uint64_t rocks);
 
 /* Add waves of all lengths to a slope, from 40 m to its two finest segments, each with this steepness. */
 void roughen_slope(struct ceduo_slope *s, double steepness);

@@ -56,7 +56,7 @@ static void mark(void)
         syscall(SYS_close, syscall(SYS_openat, AT_FDCWD, path, O_CREAT | O_WRONLY, 0600));
 }
 
-static bool happens(void)
+static bool record_fault(void)
 {
     bool first_only = fault_from || fault == KILL;
     if (atomic_load(&waits) || (first_only && gettid() != getpid()))
@@ -92,7 +92,7 @@ static void note_way(void)
     if (busy)
         return;
     busy = true;
-    happens();
+    record_fault();
     unsigned long n = atomic_load(&count);
     struct way way = {0xcbf29ce484222325u, 0};
     _Unwind_Backtrace(add_frame, &way);
@@ -116,7 +116,7 @@ static bool no_memory(void)
 {
     if (fault == WAYS)
         note_way();
-    if (fault != MEMORY || !happens())
+    if (fault != MEMORY || !record_fault())
         return false;
     errno = ENOMEM;
     return true;
@@ -140,7 +140,7 @@ void *realloc(void *p, size_t n)
 /* True if this call must fail. */
 static bool fails(void)
 {
-    if ((fault != CALL && fault != KILL) || !happens())
+    if ((fault != CALL && fault != KILL) || !record_fault())
         return false;
     if (fault == KILL)
         raise(SIGKILL);

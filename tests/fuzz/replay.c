@@ -8,7 +8,7 @@
 
 #include "fuzz.h"
 
-#define ROOM 65536
+#define CAPACITY 65536
 
 struct seed {
     uint8_t *bytes;
@@ -27,13 +27,13 @@ static size_t draw(size_t below)
 
 static struct seed read_seed(const char *path)
 {
-    struct seed seed = {malloc(ROOM), 0};
+    struct seed seed = {malloc(CAPACITY), 0};
     FILE *f = fopen(path, "rb");
     if (!seed.bytes || !f) {
         printf("Bail out! %s cannot be read\n", path);
         exit(1);
     }
-    seed.n = fread(seed.bytes, 1, ROOM, f);
+    seed.n = fread(seed.bytes, 1, CAPACITY, f);
     fclose(f);
     return seed;
 }
@@ -41,7 +41,7 @@ static struct seed read_seed(const char *path)
 /* Replace n bytes at `at` by m others. */
 static void splice(struct seed *s, size_t at, size_t n, const void *bytes, size_t m)
 {
-    if (s->n - n + m > ROOM)
+    if (s->n - n + m > CAPACITY)
         return;
     memmove(s->bytes + at + m, s->bytes + at + n, s->n - at - n);
     memcpy(s->bytes + at, bytes, m);
@@ -106,7 +106,7 @@ int main(int argc, char **argv)
     if (argc < 4)
         return 2;
     size_t n = (size_t)argc - 3, changes = strtoul(argv[2], NULL, 10);
-    struct seed *seeds = calloc(n, sizeof *seeds), one = {malloc(ROOM), 0};
+    struct seed *seeds = calloc(n, sizeof *seeds), one = {malloc(CAPACITY), 0};
     if (!seeds || !one.bytes)
         return 1;
     for (size_t i = 0; i < n; i++)

@@ -20,7 +20,7 @@ static bool noting;
 static uint64_t ways[WAYS_MAX];
 
 /* Return a hash of the functions on the call stack. */
-static uint64_t way_of_calls(void)
+static uint64_t hash_call_path(void)
 {
     void *frames[WAY_FRAMES];
     uint64_t way = 0xcbf29ce484222325u;
@@ -31,7 +31,7 @@ static uint64_t way_of_calls(void)
 }
 
 /* Count the calls first…end - 1 with the same path as `call`, at most 2. */
-static int alike(unsigned long call, unsigned long first, unsigned long end)
+static int count_same_paths(unsigned long call, unsigned long first, unsigned long end)
 {
     int n = 0;
     for (unsigned long i = first; i < end && n < 2; i++)
@@ -51,7 +51,7 @@ bool fails(void)
 {
     unsigned long n = atomic_fetch_add(&calls, 1) + 1;
     if (noting && n < WAYS_MAX)
-        ways[n] = way_of_calls();
+        ways[n] = hash_call_path();
     if (fail_at == 0 || !(fail_on ? n >= fail_at : n == fail_at))
         return false;
     errno = ENOMEM;
@@ -218,7 +218,7 @@ void without_memory(task *todo)
     assert_true(begin(todo, 0, false));
     const uint64_t wanted = found, all = calls;
     assert_true(all < WAYS_MAX);
-    way_of_calls(); /* its first use allocates memory */
+    hash_call_path(); /* its first use allocates memory */
     noting = true;
     assert_true(begin(todo, 0, false));
     noting = false;
@@ -226,7 +226,8 @@ void without_memory(task *todo)
     unsigned long failed = 0, tried = 0;
     bool each = FULL_OR(all < FEW, false);
     for (unsigned long at = 1; at <= all; at++)
-        for (int on = 0; on < 2 && (each || alike(at, 1, at) < 2 || alike(at, at + 1, all + 1) == 0); on++) {
+        for (int on = 0; on < 2 && (each || count_same_paths(at, 1, at) < 2 || count_same_paths(at, at + 1, all + 1) == 0);
+             on++) {
             bool done = begin(todo, at, on);
             failed += !done;
             tried++;

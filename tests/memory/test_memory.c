@@ -63,7 +63,7 @@ static bool add_run(const struct ceduo_run *run)
     return true;
 }
 
-static bool fly(struct ceduo_run_def def)
+static bool simulate(struct ceduo_run_def def)
 {
     struct ceduo_run *run;
     if (!is_done(ceduo_run_create(&def, &run))) {
@@ -79,7 +79,7 @@ static bool fly(struct ceduo_run_def def)
     return good;
 }
 
-static struct ceduo_run_def def_of(bool wood)
+static struct ceduo_run_def make_def(bool wood)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.option = wood ? &site.option : NULL;
@@ -87,22 +87,22 @@ static struct ceduo_run_def def_of(bool wood)
     return def;
 }
 
-static bool fly_bare(void)
+static bool simulate_bare(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    return fly(def_of(false));
+    return simulate(make_def(false));
 }
 
-static bool fly_scalar_wood(void)
+static bool simulate_scalar_forest(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_CRSP);
     site.plots[0].shoots.dbh_sd = 0.02;
-    return fly(def_of(true));
+    return simulate(make_def(true));
 }
 
 /* A profile with enough vertices to group its segments into blocks. */
 enum { VERTICES_MAX = 2600 };
-static bool fly_profile(size_t vertices)
+static bool simulate_profile(size_t vertices)
 {
     static double x[VERTICES_MAX], z[VERTICES_MAX];
     static struct ceduo_segment segments[VERTICES_MAX - 1];
@@ -118,7 +118,7 @@ static bool fly_profile(size_t vertices)
     site.scene.simulation.rocks = 50;
     site.scene.release.x.mean = 20;
     site.scene.release.vx.mean = 3;
-    struct ceduo_run_def def = def_of(false);
+    struct ceduo_run_def def = make_def(false);
     struct ceduo_run *run;
     if (ceduo_run_create(&def, &run) != CEDUO_OK)
         return false;
@@ -130,21 +130,21 @@ static bool fly_profile(size_t vertices)
     return true;
 }
 
-static bool fly_long(void)
+static bool simulate_long_profile(void)
 {
-    return fly_profile(40);
+    return simulate_profile(40);
 }
 
 /* Its vertices are closer than a rock's radius, so that rocks roll over whole blocks. */
-static bool fly_fine(void)
+static bool simulate_fine_profile(void)
 {
-    return fly_profile(VERTICES_MAX);
+    return simulate_profile(VERTICES_MAX);
 }
 
 /* ---- results built on runs ---- */
 
 /* Make the second option clearly worse, and clearly better under the other energy law. */
-static void turn(struct ceduo_result *r)
+static void reverse_order(struct ceduo_result *r)
 {
     const struct ceduo_estimate worse = {0.5, 0.1, NAN, NAN}, better = {-0.5, 0.1, NAN, NAN};
     r->options[1].differences[0].exceed = worse;
@@ -154,7 +154,7 @@ static void turn(struct ceduo_result *r)
 }
 
 /* Two options, one cut in the second of the years, and blocks of several sizes. */
-static bool question(void)
+static bool answer_options(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_option options[2] = {site.option, {.name = NULL}};
@@ -168,7 +168,7 @@ static bool question(void)
     struct ceduo_request q = ceduo_request_default(&site.scene);
     LOCAL(ceduo_pool, pool) = NULL;
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
-    q.run = def_of(false);
+    q.run = make_def(false);
     q.rocks = 30;
     q.tolerance = 1;
     q.years = true;
@@ -177,7 +177,7 @@ static bool question(void)
     enum ceduo_status status = ceduo_simulate_request(&q, &pool, &answer);
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict = {0};
     if (status == CEDUO_OK)
-        turn(answer.result);
+        reverse_order(answer.result);
     if (status == CEDUO_OK)
         status = ceduo_compare_options(answer.result, answer.years, NULL, &verdict);
     if (status == CEDUO_OK) {
@@ -196,14 +196,14 @@ static bool question(void)
 }
 
 /* Years simulated twice, with the weights of blocks. */
-static bool years_of_blocks(void)
+static bool answer_block_years(void)
 {
     static double volumes[] = {0.05, 1};
     struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     site.scene.blocks = &blocks;
     site.scene.blocks_count = 1;
-    struct ceduo_run_def def = def_of(false);
+    struct ceduo_run_def def = make_def(false);
     LOCAL(ceduo_pool, pool) = NULL;
     LOCAL(ceduo_years, years) = NULL;
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = {0};
@@ -226,7 +226,7 @@ static bool years_of_blocks(void)
 }
 
 /* Answer a request for 30 rocks. */
-static bool ask(struct ceduo_request q)
+static bool answer_request(struct ceduo_request q)
 {
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     q.rocks = 30;
@@ -242,7 +242,7 @@ static bool ask(struct ceduo_request q)
 }
 
 /* Each year with independent rocks. */
-static bool ask_years_apart(void)
+static bool answer_independent_years(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_request q = ceduo_request_default(&site.scene);
@@ -250,11 +250,11 @@ static bool ask_years_apart(void)
     q.window = (struct ceduo_window){.last = 2, .step = 1};
     q.years_apart = true;
     q.year_rocks = 20;
-    return ask(q);
+    return answer_request(q);
 }
 
 /* Under both energy laws. */
-static bool ask_both_laws(void)
+static bool answer_both_laws(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_control controls[2] = {site.control, site.control}; /* both at one place */
@@ -262,7 +262,7 @@ static bool ask_both_laws(void)
     site.scene.controls_count = 2;
     struct ceduo_request q = ceduo_request_default(&site.scene);
     q.run.other_energy = true;
-    return ask(q);
+    return answer_request(q);
 }
 
 static const char *const density = "rock.density_kg_m3", *const speed = "release.vx_m_s";
@@ -414,18 +414,18 @@ static bool copy_belts(void)
     return is_done(status);
 }
 
-static bool ask_by_index(void)
+static bool answer_by_index(void)
 {
     init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
-    return ask(ceduo_request_default(&site.scene));
+    return answer_request(ceduo_request_default(&site.scene));
 }
 
-static bool ask_of_one_option(void)
+static bool answer_one_option(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_request q = ceduo_request_default(&site.scene);
     q.only = 0;
-    return ask(q);
+    return answer_request(q);
 }
 
 /* Assess the scene that was read. */
@@ -589,16 +589,31 @@ static bool find(void)
 
 TEST(runs_go_on)
 {
-    task *const tasks[] = {fly_bare, fly_long, fly_fine, fly_scalar_wood};
+    task *const tasks[] = {simulate_bare, simulate_long_profile, simulate_fine_profile, simulate_scalar_forest};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }
 
 TEST(results_built_on_runs)
 {
-    task *const tasks[] = {question, years_of_blocks, ask_by_index,      ask_both_laws,   uncertainty, uncertainty_over_years,
-                           sure,     copy_belts,      ask_of_one_option, ask_years_apart, assess,      assess_index,
-                           follow,   follow_one,      follow_roll,       record_roll,     find,        fit_surface};
+    task *const tasks[] = {answer_options,
+                           answer_block_years,
+                           answer_by_index,
+                           answer_both_laws,
+                           uncertainty,
+                           uncertainty_over_years,
+                           sure,
+                           copy_belts,
+                           answer_one_option,
+                           answer_independent_years,
+                           assess,
+                           assess_index,
+                           follow,
+                           follow_one,
+                           follow_roll,
+                           record_roll,
+                           find,
+                           fit_surface};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }

@@ -301,7 +301,7 @@ static bool write_link(void)
 }
 
 /* Write a new file, then replace an existing one. */
-static bool write_over(void)
+static bool replace_file(void)
 {
     bool good = ceduo_file_write(survey_path, survey, sizeof survey - 1);
     assert_true(good || errno == ENOMEM);
@@ -343,6 +343,6 @@ TEST_WITH(folders, set_up, tear_down)
 {
     without_memory(list_profiles);
     without_memory(write_link);
-    without_memory(write_over);
+    without_memory(replace_file);
     without_memory(ask_to_write);
 }

@@ -51,7 +51,7 @@ static void make_ground(void)
 
 /* ---- blocks of all sizes ---- */
 
-static bool ask_of_blocks(void)
+static bool answer_block_sizes(void)
 {
     make_ground();
     ground.volumes[0] = 0.1;
@@ -82,7 +82,7 @@ static bool ask_of_blocks(void)
 
 static double stops[3] = {60, 80, 120}, scars[3] = {0.4, 0.5, 0.6};
 
-static struct ceduo_observation something(enum ceduo_observed_kind kind)
+static struct ceduo_observation make_observation(enum ceduo_observed_kind kind)
 {
     return (struct ceduo_observation){
         .kind = kind, .x = 20, .from = 10, .to = 40, .n = 3, .mean = 5, .sd = 1, .share_seen = NAN};
@@ -90,22 +90,22 @@ static struct ceduo_observation something(enum ceduo_observed_kind kind)
 
 static void see(struct ceduo_observation seen[4])
 {
-    seen[0] = something(CEDUO_OBSERVED_STOPS);
+    seen[0] = make_observation(CEDUO_OBSERVED_STOPS);
     seen[0].from = NAN;
     seen[0].values = stops;
-    seen[1] = something(CEDUO_OBSERVED_PASSED);
+    seen[1] = make_observation(CEDUO_OBSERVED_PASSED);
     seen[1].count = 2;
     seen[1].of = 3;
-    seen[2] = something(CEDUO_OBSERVED_SCARS);
+    seen[2] = make_observation(CEDUO_OBSERVED_SCARS);
     seen[2].values = scars;
     seen[2].of = 10;
-    seen[3] = something(CEDUO_OBSERVED_ENERGY);
+    seen[3] = make_observation(CEDUO_OBSERVED_ENERGY);
     seen[3].mean = 1e5;
     seen[3].sd = 1e4;
     seen[1].option = seen[3].option = 1;
 }
 
-static bool look(void)
+static bool compare(void)
 {
     struct ceduo_observation seen[4];
     struct ceduo_observer *observer;
@@ -130,7 +130,7 @@ static bool look(void)
     return is_done(status);
 }
 
-static bool look_without_a_fit(void)
+static bool compare_without_fit(void)
 {
     struct ceduo_observation seen[4];
     struct ceduo_predicted to[4];
@@ -156,12 +156,12 @@ static void tell(void *context, const struct ceduo_calibration_state *state)
 #define SEEN 200 /* repeats of an observation */
 
 /* Fit one value to a repeated observation of a speed at x with the second option; chains of one round. */
-static enum ceduo_status fit_of(const struct ceduo_input *input, double x, struct ceduo_calibration_def def)
+static enum ceduo_status run_fit(const struct ceduo_input *input, double x, struct ceduo_calibration_def def)
 {
     struct ceduo_observation seen[SEEN];
     make_ground();
     for (size_t i = 0; i < SEEN; i++) {
-        seen[i] = something(CEDUO_OBSERVED_SPEED);
+        seen[i] = make_observation(CEDUO_OBSERVED_SPEED);
         seen[i].x = x;
         seen[i].option = 1;
     }
@@ -179,15 +179,15 @@ static enum ceduo_status fit_of(const struct ceduo_input *input, double x, struc
 }
 
 /* Fit to an observed speed of one rock, with chains of one round. */
-static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void (*meanwhile)(void),
-                                          enum ceduo_calibration_stage stage, int at)
+static enum ceduo_status run_short_fit(unsigned threads, uint64_t rocks, void (*meanwhile)(void),
+                                       enum ceduo_calibration_stage stage, int at)
 {
     static const char *const place = "release.vx_m_s";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 9, .places_count = 1, .places = &place};
     counted_stage = stage;
     begin_to_tell(meanwhile, at);
-    return fit_of(&input, 1,
-                  (struct ceduo_calibration_def){.scenes_count = 1, .rocks = rocks, .threads = threads, .progress = tell});
+    return run_fit(&input, 1,
+                   (struct ceduo_calibration_def){.scenes_count = 1, .rocks = rocks, .threads = threads, .progress = tell});
 }
 
 /* Fit one value to two scenes. Nearly all its trials stop before the observations, and take no time. */
@@ -195,7 +195,7 @@ static bool fit(void)
 {
     static const char *const place = "release.x_m";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
-    return is_done(fit_of(&input, 20, (struct ceduo_calibration_def){.scenes_count = 2, .rocks = 1, .threads = 1}));
+    return is_done(run_fit(&input, 20, (struct ceduo_calibration_def){.scenes_count = 2, .rocks = 1, .threads = 1}));
 }
 
 static bool fit_on_many_threads(void)
@@ -203,7 +203,7 @@ static bool fit_on_many_threads(void)
     static const char *const place = "release.x_m";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
     return is_done(
-        fit_of(&input, 20, (struct ceduo_calibration_def){.scenes_count = 1, .rocks = 1, .threads = CEDUO_THREADS_MAX}));
+        run_fit(&input, 20, (struct ceduo_calibration_def){.scenes_count = 1, .rocks = 1, .threads = CEDUO_THREADS_MAX}));
 }
 
 /* Many workers need additional buffers. */
@@ -217,7 +217,7 @@ TEST(workers_of_a_fit)
  * running at its next call. */
 TEST(progress_calls_never_overlap)
 {
-    assert_int_equal(fit_of_one_round(2, 1000, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
+    assert_int_equal(run_short_fit(2, 1000, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
     assert_int_equal(told.most_inside, 1);
     assert_true(told.times > 1);
 }
@@ -225,7 +225,7 @@ TEST(progress_calls_never_overlap)
 /* A thread without memory stops the others: only a few of 256 points are evaluated. */
 TEST(one_failure_stops_all_threads)
 {
-    assert_int_equal(fit_of_one_round(2, 1, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
+    assert_int_equal(run_short_fit(2, 1, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
     assert_true(told.times < 100);
 }
 
@@ -238,7 +238,7 @@ static void fail_to_grow(void)
 
 static bool fit_that_cannot_grow(void)
 {
-    return is_done(fit_of_one_round(1, 1, fail_to_grow, CEDUO_REFINE, 3));
+    return is_done(run_short_fit(1, 1, fail_to_grow, CEDUO_REFINE, 3));
 }
 
 /* The chains cannot store their trials or train the surrogate. */
@@ -253,14 +253,14 @@ TEST(chains_of_a_fit)
 /* ---- many observations ---- */
 
 /* Each observation has its own rock and buffers. */
-static bool see_many(void)
+static bool compare_many(void)
 {
     enum { MANY = 64 };
     static struct ceduo_rock_def rocks[MANY];
     struct ceduo_observation seen[MANY];
     LOCAL(ceduo_observer, observer);
     for (size_t i = 0; i < MANY; i++) {
-        seen[i] = something(CEDUO_OBSERVED_SPEED);
+        seen[i] = make_observation(CEDUO_OBSERVED_SPEED);
         seen[i].rock = &rocks[i];
     }
     enum ceduo_status status = ceduo_observer_create(seen, MANY, &observer);
@@ -276,7 +276,7 @@ static enum ceduo_status normal(void *context, size_t chain, const double *x, do
     return CEDUO_OK;
 }
 
-static double guess_at(void *context, const double *x)
+static double predict_surrogate(void *context, const double *x)
 {
     return ceduo_guess_at(context, x);
 }
@@ -300,7 +300,7 @@ static bool draw(void)
                                    .rhat_most = 1.01,
                                    .effective_least = 1e9,
                                    .density = normal,
-                                   .guess = guess_at,
+                                   .guess = predict_surrogate,
                                    .learn = learn,
                                    .context = &guess};
     LOCAL_BY(ceduo_chains_release) struct chains chains;
@@ -337,14 +337,14 @@ static bool survey(void)
 
 TEST(blocks_come_down)
 {
-    without_memory(ask_of_blocks);
+    without_memory(answer_block_sizes);
 }
 
 TEST(comparison_with_observations)
 {
-    without_memory(look);
-    without_memory(look_without_a_fit);
-    without_memory(see_many);
+    without_memory(compare);
+    without_memory(compare_without_fit);
+    without_memory(compare_many);
 }
 
 TEST(fits)

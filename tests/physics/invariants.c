@@ -10,7 +10,7 @@
 #define UNDER      1e-9  /* m below ground, or */
 #define UNDER_SIZE 1e-13 /* this share of the trajectory's largest coordinate */
 
-struct watch {
+struct checker {
     const struct line_scene *scene;
     struct ceduo_rock rock;
     double k; /* 0: no spin */
@@ -23,13 +23,13 @@ struct watch {
     bool bad;                                        /* NaN, or a gap between segments */
 };
 
-static double kinetic(const struct watch *w, double vx, double vz, double spin)
+static double kinetic(const struct checker *w, double vx, double vz, double spin)
 {
     double rim = spin * w->rock.radius;
     return (vx * vx + vz * vz + w->k * (rim * rim)) / 2;
 }
 
-static double spin_at_end(const struct watch *w, const struct ceduo_trajectory_segment *p)
+static double spin_at_end(const struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     if (!p->rolls || !(w->k > 0))
         return p->spin;
@@ -47,47 +47,47 @@ static double height_of_flight(const struct ceduo_trajectory_segment *p, double 
     return p->z1 + (p->vz1 - g / 2 * t) * t;
 }
 
-static double depth_under(const struct ceduo_slope *s, size_t j, double x, double z)
+static double depth_below(const struct ceduo_slope *s, size_t j, double x, double z)
 {
     double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j];
     return ((x - s->x[j]) * dz - (z - s->z[j]) * dx) / hypot(dx, dz);
 }
 
-static void look_under(struct watch *w, size_t j, double x, double z)
+static void check_depth(struct checker *w, size_t j, double x, double z)
 {
-    w->under = fmax(w->under, depth_under(&w->scene->scene.slope, j, x, z));
+    w->under = fmax(w->under, depth_below(&w->scene->scene.slope, j, x, z));
 }
 
 /* The same at an end of a roll. The x of a place on a wall may round to that of the wall's end: then it is on the wall. */
-static void look_under_roll(struct watch *w, size_t j, double x, double z)
+static void check_roll_depth(struct checker *w, size_t j, double x, double z)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
-    double depth = depth_under(s, j, x, z);
+    double depth = depth_below(s, j, x, z);
     if (j > 0 && x == s->x[j])
-        depth = fmin(depth, depth_under(s, j - 1, x, z));
+        depth = fmin(depth, depth_below(s, j - 1, x, z));
     w->under = fmax(w->under, depth);
 }
 
 /* Over a straight segment the flight is concave: it is lowest over the ends of the segment or at its own ends. A vertex at
  * either end belongs to the segment towards the rest of the flight. */
-static void look_under_flight(struct watch *w, const struct ceduo_trajectory_segment *p)
+static void check_flight_depth(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
     double lo = fmin(p->x, p->x1), hi = fmax(p->x, p->x1), g = w->scene->scene.simulation.gravity;
     size_t j = ceduo_slope_segment(s, lo);
     double x_lo = lo, z_lo = p->x <= p->x1 ? p->z : p->z1, z_hi = p->x <= p->x1 ? p->z1 : p->z;
     for (;; j++) {
-        look_under(w, j, x_lo, z_lo);
+        check_depth(w, j, x_lo, z_lo);
         if (j + 2 == s->vertices || s->x[j + 1] >= hi)
             break;
         x_lo = s->x[j + 1];
         z_lo = height_of_flight(p, g, x_lo);
-        look_under(w, j, x_lo, z_lo);
+        check_depth(w, j, x_lo, z_lo);
     }
-    look_under(w, j, hi, z_hi);
+    check_depth(w, j, hi, z_hi);
 }
 
-static void look_at_flight(struct watch *w, const struct ceduo_trajectory_segment *p)
+static void check_flight(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     double g = w->scene->scene.simulation.gravity;
     double v2 = (p->vx * p->vx + p->vz * p->vz) / 2, v2_end = (p->vx1 * p->vx1 + p->vz1 * p->vz1) / 2;
@@ -95,7 +95,7 @@ static void look_at_flight(struct watch *w, const struct ceduo_trajectory_segmen
     double off = fabs((v2 + g * p->z) - (v2_end + g * p->z1));
     if (off > 0)
         w->energy_off = fmax(w->energy_off, off / fmax(scale, scale_end));
-    look_under_flight(w, p);
+    check_flight_depth(w, p);
     w->flights++;
 }
 
@@ -112,7 +112,7 @@ static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct
 }
 
 /* On the ground a rock gains at most its drop. */
-static void look_at_roll(struct watch *w, const struct ceduo_trajectory_segment *p)
+static void check_roll(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     double g = w->scene->scene.simulation.gravity, share = (1 + w->k) / 2;
     double before = share * (p->vx * p->vx + p->vz * p->vz), after = share * (p->vx1 * p->vx1 + p->vz1 * p->vz1);
@@ -122,12 +122,12 @@ static void look_at_roll(struct watch *w, const struct ceduo_trajectory_segment 
         w->energy_off = fmax(w->energy_off, gained / scale);
     /* the middle may round to the far end, and so to the next segment */
     size_t j = ceduo_slope_segment(&w->scene->scene.slope, fmin(p->x, p->x1));
-    look_under_roll(w, j, p->x, p->z);
-    look_under_roll(w, j, p->x1, p->z1);
+    check_roll_depth(w, j, p->x, p->z);
+    check_roll_depth(w, j, p->x1, p->z1);
 }
 
 /* crsp on a smooth segment: energy along the ground and of spin falls to at most Rt(Rt + (1 - Rt)/1.2) of it. */
-static void look_at_crsp(struct watch *w, const struct ceduo_trajectory_segment *p)
+static void check_crsp(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
     const struct ceduo_simulation *simulation = &w->scene->scene.simulation;
@@ -149,7 +149,7 @@ static void look_at_crsp(struct watch *w, const struct ceduo_trajectory_segment 
 
 /* With the friction bound a rock that continues rolling keeps its speed. A rock that flies from a smooth segment has lost at
  * most friction times the normal impulse along it. */
-static void look_at_bound(struct watch *w, const struct ceduo_trajectory_segment *p)
+static void check_bound(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_simulation *simulation = &w->scene->scene.simulation;
     const struct ceduo_slope *s = &w->scene->scene.slope;
@@ -172,16 +172,16 @@ static void look_at_bound(struct watch *w, const struct ceduo_trajectory_segment
     w->impacts++;
 }
 
-static void look_at_piece(void *context, const struct ceduo_trajectory_segment *p)
+static void check_segment(void *context, const struct ceduo_trajectory_segment *p)
 {
-    struct watch *w = context;
+    struct checker *w = context;
     double sum = p->x + p->z + p->vx + p->vz + p->x1 + p->z1 + p->vx1 + p->vz1 + p->spin + p->seconds;
     w->bad |= !isfinite(sum) || p->seconds < 0;
     w->size = fmax(w->size, fmax(fmax(fabs(p->x), fabs(p->z)), fmax(fabs(p->x1), fabs(p->z1))));
     if (p->rolls)
-        look_at_roll(w, p);
+        check_roll(w, p);
     else
-        look_at_flight(w, p);
+        check_flight(w, p);
     w->in_crack += is_in_crack(&w->scene->scene.slope, w->rock.radius, p);
     if (w->pieces > 0) {
         w->bad |= p->x != w->last.x1 || p->z != w->last.z1 || p->contacts < w->last.contacts;
@@ -189,8 +189,8 @@ static void look_at_piece(void *context, const struct ceduo_trajectory_segment *
         double after = kinetic(w, p->vx, p->vz, p->spin);
         if (after > before && before > 1e-280)
             w->gain = fmax(w->gain, after / before - 1);
-        look_at_crsp(w, p);
-        look_at_bound(w, p);
+        check_crsp(w, p);
+        check_bound(w, p);
     }
     w->last = *p;
     w->pieces++;
@@ -217,7 +217,7 @@ static void expect_crossing(uint64_t number, const struct ceduo_crossing *c)
 }
 
 /* True if a rock without friction rolls slowly to and fro on level ground, perhaps for ever. */
-static bool creeps(const struct watch *w)
+static bool is_creeping(const struct checker *w)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
     return w->last.rolls && s->segments[ceduo_slope_segment(s, w->last.x1)].friction == 0;
@@ -227,7 +227,7 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
 {
     struct ceduo_trajectory way;
     struct ceduo_crossing crossing = {0};
-    struct watch w = {.scene = s, .smooth = is_smooth(s)};
+    struct checker w = {.scene = s, .smooth = is_smooth(s)};
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
     assert_int_equal(ceduo_rock_of_means(&s->scene.rock, &w.rock), CEDUO_OK);
     if (s->scene.simulation.law == CEDUO_LAW_ARM) { /* the section is drawn */
@@ -236,7 +236,7 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     }
     w.k = s->scene.simulation.law == CEDUO_LAW_LUMPED ? 0 : w.rock.k;
     assert_int_equal(ceduo_trajectory_follow(&s->scene, NULL, number % 11,
-                                             &(struct ceduo_trajectory_callbacks){.piece = look_at_piece, .context = &w}, &way,
+                                             &(struct ceduo_trajectory_callbacks){.piece = check_segment, .context = &w}, &way,
                                              &crossing),
                      CEDUO_OK);
     if (w.bad || !isfinite(way.x + way.z) || (w.pieces > 0 && (way.x != w.last.x1 || way.z != w.last.z1)))
@@ -252,7 +252,7 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     if (way.end == CEDUO_LEFT_SLOPE && way.x != 0 && way.x != end)
         fail_msg("scene %ju: left the slope at %g", (uintmax_t)number, way.x);
     bool crack = way.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MAX / 2;
-    if (way.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack && !creeps(&w))
+    if (way.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack && !is_creeping(&w))
         fail_msg("scene %ju: unfinished", (uintmax_t)number);
     tally->last = way;
     tally->ends[way.end]++;

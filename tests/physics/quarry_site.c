@@ -9,8 +9,8 @@
 
 #include "line_scene.h"
 
-#define PLACE  60 /* m, of the observed speeds and heights */
-#define FEWEST 5  /* minimum values of a kind */
+#define PLACE      60 /* m, of the observed speeds and heights */
+#define VALUES_MIN 5  /* minimum values of a kind */
 
 static const double bounds[QUARRY_VALUES_MAX][2] = {{0.25, 0.5}, {0.75, 0.95}, {0.05, 0.4}, {0.3, 0.7}};
 const char *const quarry_names[QUARRY_VALUES_MAX] = {"rn", "rt", "roughness_rad", "friction"};
@@ -58,7 +58,8 @@ static void make_site(struct quarry_site *s, enum ceduo_law law, const double *t
 }
 
 /* Observe the rocks: their stops, and speed and height at a place. */
-static bool see(const struct quarry_site *s, const struct quarry_trial *trial, double **values, struct ceduo_observation *seen)
+static bool observe(const struct quarry_site *s, const struct quarry_trial *trial, double **values,
+                    struct ceduo_observation *seen)
 {
     static const enum ceduo_observed_kind kinds[] = {CEDUO_OBSERVED_STOPS, CEDUO_OBSERVED_SPEED, CEDUO_OBSERVED_HEIGHT};
     struct ceduo_observer *observer = NULL;
@@ -78,7 +79,7 @@ static bool see(const struct quarry_site *s, const struct quarry_trial *trial, d
         seen[k].values = values[k];
         seen[k].n = m;
         seen[k].of = k == 0 ? trial->seen : 0;
-        good = good && m >= FEWEST;
+        good = good && m >= VALUES_MIN;
     }
     ceduo_observer_free(observer);
     return good;
@@ -99,8 +100,8 @@ static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, con
 }
 
 /* Draw the truth and simulate its observations into `values` and `observed`. */
-static bool make(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct quarry_site *fitted, double **values,
-                 struct ceduo_observation *seen)
+static bool make_observations(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct quarry_site *fitted,
+                              double **values, struct ceduo_observation *seen)
 {
     struct quarry_site made;
     struct line_random random = {1000 * trial->number + 77 * trial->made_by};
@@ -108,7 +109,7 @@ static bool make(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MA
         truth[i] = i < trial->values || i < 3 ? line_uniform(&random, bounds[i][0], bounds[i][1]) : 0.5;
     make_site(&made, trial->made_by, truth, 100000 + trial->number);
     make_site(fitted, CEDUO_LAW_LUMPED, truth, 1 + trial->number);
-    return see(&made, trial, values, seen);
+    return observe(&made, trial, values, seen);
 }
 
 static void forget(double **values)
@@ -122,7 +123,7 @@ bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX
     struct quarry_site site;
     struct ceduo_observation seen[QUARRY_KINDS];
     double *values[QUARRY_KINDS] = {0};
-    bool good = make(trial, truth, &site, values, seen) && fit(&site, seen, trial, answer);
+    bool good = make_observations(trial, truth, &site, values, seen) && fit(&site, seen, trial, answer);
     forget(values);
     return good;
 }
@@ -133,7 +134,7 @@ bool quarry_look(const struct quarry_trial *trial, double p[QUARRY_KINDS])
     struct ceduo_observation seen[QUARRY_KINDS];
     struct ceduo_predicted found[QUARRY_KINDS];
     double *values[QUARRY_KINDS] = {0}, truth[QUARRY_VALUES_MAX];
-    bool good = make(trial, truth, &site, values, seen);
+    bool good = make_observations(trial, truth, &site, values, seen);
     struct ceduo_calibration_scene scene = {&site.scene, site.inputs, trial->kinds, seen};
     good = good && ceduo_compare_with_observations(&scene, trial->rocks, NULL, found) == CEDUO_OK;
     for (size_t k = 0; good && k < trial->kinds; k++)

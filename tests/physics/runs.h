@@ -5,11 +5,11 @@
 
 #include "ceduo/ceduo.h"
 
-struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks);
+struct ceduo_run *make_run(const struct ceduo_run_def *def, uint64_t rocks);
 struct ceduo_run *run_option(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks,
                              unsigned threads);
-struct ceduo_arrivals arrivals_of(const struct ceduo_run *run, size_t control);
-struct ceduo_ends ends_of(const struct ceduo_run *run);
+struct ceduo_arrivals read_arrivals(const struct ceduo_run *run, size_t control);
+struct ceduo_ends read_ends(const struct ceduo_run *run);
 
 /* Compare control 0, the ends and the stems bit by bit. */
 void expect_same_run(const struct ceduo_run *a, const struct ceduo_run *b);

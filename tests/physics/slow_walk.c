@@ -41,7 +41,7 @@ static slow_real square(slow_real v)
 }
 
 /* Clamp v to [lo, hi]; lo for NaN. */
-static slow_real within(slow_real v, slow_real lo, slow_real hi)
+static slow_real clamp(slow_real v, slow_real lo, slow_real hi)
 {
     return !(v > lo) ? lo : v < hi ? v : hi;
 }
@@ -53,7 +53,7 @@ static slow_real not_below_0(slow_real v)
 
 /* ---- ground ---- */
 
-static struct slow_turn turn_of(slow_real angle)
+static struct slow_turn facet_turn(slow_real angle)
 {
     return (struct slow_turn){cos(angle), sin(angle)};
 }
@@ -63,7 +63,7 @@ struct slow_segment slow_segment_between(double x0, double z0, double x1, double
     struct slow_segment s = {.x0 = x0, .z0 = z0, .x1 = x1, .z1 = z1};
     s.slope = (s.z1 - s.z0) / (s.x1 - s.x0);
     s.angle = atan2(s.z1 - s.z0, s.x1 - s.x0);
-    s.turn = turn_of(s.angle);
+    s.turn = facet_turn(s.angle);
     return s;
 }
 
@@ -74,7 +74,7 @@ static slow_real ground(const struct slow_segment *s, slow_real x)
 }
 
 /* Return the segment below x: the right-hand one at a vertex, the last one at the end of the profile. */
-static const struct slow_segment *segment_at(const struct slow_def *def, slow_real x)
+static const struct slow_segment *find_segment(const struct slow_def *def, slow_real x)
 {
     const struct slow_segment *s = def->segments;
     while (s < def->segments + def->count - 1 && x >= s->x1)
@@ -102,7 +102,7 @@ static bool is_last(const struct slow_def *def, const struct slow_segment *s, in
 static slow_real ground_length(const struct slow_def *def, slow_real from, slow_real to)
 {
     slow_real x = from < to ? from : to, high = from < to ? to : from, sum = 0;
-    const struct slow_segment *s = segment_at(def, x);
+    const struct slow_segment *s = find_segment(def, x);
     for (; high > s->x1 && !is_last(def, s, 1); x = s++->x1)
         sum += (s->x1 - x) / s->turn.cosine;
     return sum + (high - x) / s->turn.cosine;
@@ -121,7 +121,7 @@ static slow_real rolling_spin(const struct slow_def *def, slow_real u)
     return def->law == SLOW_CRSP ? u / (slow_real)def->radius : 0;
 }
 
-static int direction_of(slow_real v)
+static int find_direction(slow_real v)
 {
     return (v > 0) - (v < 0);
 }
@@ -176,7 +176,7 @@ static void record_flight(struct walker *w, slow_real to)
     if (!crosses(w, to))
         return;
     const slow_real g = w->def->gravity, c = w->def->control, t = (c - w->x) / w->vx;
-    record(w, w->vx, w->vz - g * t, w->spin, w->z + t * (w->vz - g * t / 2) - ground(segment_at(w->def, c), c));
+    record(w, w->vx, w->vz - g * t, w->spin, w->z + t * (w->vz - g * t / 2) - ground(find_segment(w->def, c), c));
 }
 
 /* Return the gain of u^2 over dx: the drop minus friction, shared with the rotation. It is positive downhill exactly if the
@@ -208,7 +208,7 @@ static slow_real later_root(slow_real c, slow_real b, slow_real g)
 }
 
 /* Return the time at which the rock is over x; negative if x has been passed. */
-static slow_real time_at(const struct walker *w, slow_real x)
+static slow_real compute_time(const struct walker *w, slow_real x)
 {
     return not_below_0((x - w->x) / w->vx);
 }
@@ -217,23 +217,23 @@ static slow_real time_at(const struct walker *w, slow_real x)
  * t - g t^2 / 2. On the segment of its start c is 0 by definition: rounding must not bury the rock, and its height above the
  * end is exact for any flight length. A flight exactly through the vertex is clear, so that the next segment takes it; NaN is
  * not clear. */
-static bool meets(const struct walker *w, const struct slow_segment *s, int direction, slow_real *time)
+static bool hits_segment(const struct walker *w, const struct slow_segment *s, int direction, slow_real *time)
 {
     const slow_real g = w->def->gravity, b = w->vz - s->slope * w->vx;
-    const slow_real t_out = time_at(w, exit_x(s, direction));
+    const slow_real t_out = compute_time(w, exit_x(s, direction));
     const bool starts = w->on_ground && s == w->at;
     const slow_real height =
         starts ? t_out * (b - g * t_out / 2) : w->z + t_out * (w->vz - g * t_out / 2) - exit_z(s, direction);
     if (height >= 0)
         return false;
-    *time = within(later_root(starts ? 0 : w->z - ground(s, w->x), b, g), time_at(w, exit_x(s, -direction)), t_out);
+    *time = clamp(later_root(starts ? 0 : w->z - ground(s, w->x), b, g), compute_time(w, exit_x(s, -direction)), t_out);
     return true;
 }
 
 /* Return the earliest contact with all segments from here to the end of the profile. */
 static struct touch next_touch(const struct walker *w)
 {
-    const int direction = direction_of(w->vx);
+    const int direction = find_direction(w->vx);
     if (direction == 0) { /* vertical flight */
         const slow_real c = w->on_ground ? 0 : not_below_0(w->z - ground(w->at, w->x));
         return (struct touch){w->at, not_below_0(later_root(c, w->vz, (slow_real)w->def->gravity)), w->x};
@@ -241,18 +241,18 @@ static struct touch next_touch(const struct walker *w)
     struct touch best = {.at = NULL};
     for (const struct slow_segment *s = w->at;; s += direction) {
         slow_real t = 0;
-        if (meets(w, s, direction, &t) && (!best.at || t < best.time))
-            best = (struct touch){s, t, within(w->x + w->vx * t, s->x0, s->x1)};
+        if (hits_segment(w, s, direction, &t) && (!best.at || t < best.time))
+            best = (struct touch){s, t, clamp(w->x + w->vx * t, s->x0, s->x1)};
         if (is_last(w->def, s, direction))
             return best;
     }
 }
 
-static enum todo fly(struct walker *w)
+static enum todo fly_to_contact(struct walker *w)
 {
     const slow_real g = w->def->gravity;
     if (!w->touch.at) {
-        const slow_real x = w->vx > 0 ? w->def->segments[w->def->count - 1].x1 : w->def->segments[0].x0, t = time_at(w, x);
+        const slow_real x = w->vx > 0 ? w->def->segments[w->def->count - 1].x1 : w->def->segments[0].x0, t = compute_time(w, x);
         record_flight(w, x);
         w->x = x;
         w->z += t * (w->vz - g * t / 2);
@@ -277,7 +277,7 @@ static struct slow_turn facet(const struct walker *w)
     const slow_real angle = w->def->facets == SLOW_BOTH  ? most * (2 * u - 1)
                             : along(w, w->at->turn) >= 0 ? most * u
                                                          : -most * u;
-    const struct slow_turn turned = turn_of(w->at->angle + angle);
+    const struct slow_turn turned = facet_turn(w->at->angle + angle);
     return outward(w, turned) > 0 ? w->at->turn : turned; /* a rock cannot hit a face from which it moves away */
 }
 
@@ -373,11 +373,11 @@ static enum todo contact(struct walker *w)
 /* ---- rolling ---- */
 
 /* Convert to the speed without slip that keeps the angular momentum about the contact point. */
-static struct roll roll_of(const struct walker *w)
+static struct roll start_roll(const struct walker *w)
 {
     const slow_real k = inertia(w->def), radius = w->def->radius;
     const slow_real u = (along(w, w->at->turn) + k * w->spin * radius) / (1 + k);
-    const int direction = direction_of(u);
+    const int direction = find_direction(u);
     return (struct roll){u * u, radius, direction != 0 ? direction : downhill(w->at)};
 }
 
@@ -452,7 +452,7 @@ static bool follow(const struct slow_def *def, const struct slow_segment **s, in
 }
 
 /* True if the ground from a segment on rises to z before it falls again. */
-static bool rises_to(const struct slow_def *def, const struct slow_segment *s, int direction, slow_real z)
+static bool rises_to_height(const struct slow_def *def, const struct slow_segment *s, int direction, slow_real z)
 {
     for (;; s += direction) {
         if (direction * (s->z1 - s->z0) < 0)
@@ -479,17 +479,17 @@ static bool stands_in_pit(const struct walker *w)
     if (!follow(def, &beyond, direction, false))
         return false;
     return ground_length(def, bottom, exit_x(beyond, -direction)) < radius && ground_length(def, w->x, bottom) < radius &&
-           steeper_than_friction(before) && steeper_than_friction(beyond) && rises_to(def, beyond, direction, w->z);
+           steeper_than_friction(before) && steeper_than_friction(beyond) && rises_to_height(def, beyond, direction, w->z);
 }
 
-static bool rests(const struct walker *w)
+static bool is_at_rest(const struct walker *w)
 {
     return !steeper_than_friction(w->at) || stands_in_pit(w);
 }
 
 static enum todo stand(struct walker *w)
 {
-    if (rests(w))
+    if (is_at_rest(w))
         return end(w, SLOW_REST);
     if (w->way->contacts >= w->def->max_contacts)
         return end(w, SLOW_UNFINISHED);
@@ -500,8 +500,8 @@ static enum todo stand(struct walker *w)
 /* A rock without speed after a contact may rest at its place; otherwise it continues with the roll of that contact. */
 static enum todo roll(struct walker *w)
 {
-    struct roll now = roll_of(w);
-    if (now.u2 == 0 && rests(w))
+    struct roll now = start_roll(w);
+    if (now.u2 == 0 && is_at_rest(w))
         return end(w, SLOW_REST);
     enum todo next;
     do
@@ -514,7 +514,7 @@ static enum todo roll(struct walker *w)
 
 static enum todo release(struct walker *w)
 {
-    w->at = segment_at(w->def, w->x);
+    w->at = find_segment(w->def, w->x);
     const slow_real under = ground(w->at, w->x);
     w->on_ground = !(w->z > under) || (double)w->z == (double)under; /* the caller's heights are doubles */
     if (w->on_ground)
@@ -528,7 +528,7 @@ static enum todo release(struct walker *w)
 struct slow_way slow_walk(const struct slow_def *def)
 {
     static enum todo (*const steps[])(struct walker *) = {
-        [TODO_CONTACT] = contact, [TODO_FLIGHT] = fly, [TODO_ROLL] = roll, [TODO_STAND] = stand};
+        [TODO_CONTACT] = contact, [TODO_FLIGHT] = fly_to_contact, [TODO_ROLL] = roll, [TODO_STAND] = stand};
     struct slow_way way = {.contacts = 0};
     struct walker w = {.def = def, .way = &way, .x = def->x0, .z = def->z0, .vx = def->vx0, .vz = def->vz0};
     w.spin = def->law == SLOW_CRSP ? (slow_real)def->spin0 : 0;

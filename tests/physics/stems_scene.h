@@ -63,7 +63,7 @@ void sweep_one(uint64_t rock);
 bool sweep_next(uint64_t rock, uint64_t rocks);
 
 /* Count different numbers among the hit stems, all or only shoots. */
-size_t different(bool shoots_only);
+size_t count_different(bool shoots_only);
 
 /* Stems and stools that rocks met in the planted forest, per metre. */
 struct met {

@@ -11,7 +11,7 @@
 #include "ceduo/observe.h"
 
 /* The 95 % point for n values (Stephens 1974). */
-static inline double stops_band(size_t n)
+static inline double stops_limit(size_t n)
 {
     double root = sqrt((double)n);
     return 1.358 / (root + 0.12 + 0.11 / root);

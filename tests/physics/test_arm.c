@@ -19,7 +19,7 @@ struct blow {
     struct impact in;
 };
 
-static struct impact struck(const struct blow *c)
+static struct impact apply_impact(const struct blow *c)
 {
     double k2 = (c->a * c->a + c->b * c->b) / 5, gyration = sqrt(k2);
     struct ground_point at = {
@@ -32,7 +32,7 @@ static struct impact struck(const struct blow *c)
     return law_arm.struck(c->in, &at);
 }
 
-static double energy_of(const struct blow *c, struct impact v)
+static double compute_energy(const struct blow *c, struct impact v)
 {
     double k2 = (c->a * c->a + c->b * c->b) / 5;
     return v.vn * v.vn + v.vt * v.vt + k2 * v.spin * v.spin;
@@ -66,13 +66,13 @@ TEST(a_round_rock_that_sticks)
         double radius = line_log_uniform(&r, 0.05, 2), vn = line_uniform(&r, 1, 20), e = line_uniform(&r, 0, 1);
         double vt = line_uniform(&r, -1, 1) * vn, spin = line_uniform(&r, -1, 1) * vn / radius, k = 0.4;
         struct blow c = {radius, radius, radius, line_uniform(&r, -1.5, 1.5), e, 3, 0, {vn, vt, spin}};
-        struct impact out = struck(&c);
+        struct impact out = apply_impact(&c);
         double along = (vt + k * spin * radius) / (1 + k);
         ROWS(EXPECT_NEAR, (out.vt, along, 1e-14 * vn), (out.spin * radius, along, 1e-14 * vn), (out.vn, e * vn, 1e-14 * vn));
         c.in.vt = -vt;
         c.in.spin = -spin;
         c.turn = -c.turn;
-        struct impact mirror = struck(&c);
+        struct impact mirror = apply_impact(&c);
         EXPECT_IS(mirror, (vt, -out.vt), (spin, -out.spin));
         EXPECT(mirror.vn, ==, out.vn);
     }
@@ -83,7 +83,7 @@ struct point {
     double r, h, k2, un, ut;
 };
 
-static struct point point_of(const struct blow *c, struct impact v, double vn)
+static struct point contact_point(const struct blow *c, struct impact v, double vn)
 {
     struct point p = {.k2 = (c->a * c->a + c->b * c->b) / 5};
     p.h = sqrt(c->a * c->a * sin(c->turn) * sin(c->turn) + c->b * c->b * cos(c->turn) * cos(c->turn));
@@ -103,9 +103,9 @@ TEST(without_friction_only_the_normal_impulse_acts)
     for (int i = 0; i < 10000; i++) {
         struct blow c = random_blow(&r);
         c.mu = c.friction = 0;
-        struct impact out = struck(&c);
-        struct point p = point_of(&c, c.in, -c.in.vn);
-        double impulse = -(1 + c.e) * p.un / (1 + p.r * p.r / p.k2), size = sqrt(energy_of(&c, c.in)) * 1e-14;
+        struct impact out = apply_impact(&c);
+        struct point p = contact_point(&c, c.in, -c.in.vn);
+        double impulse = -(1 + c.e) * p.un / (1 + p.r * p.r / p.k2), size = sqrt(compute_energy(&c, c.in)) * 1e-14;
         EXPECT_NEAR(out.vn, fmax(0, -c.in.vn + impulse), size); /* a second impact stops the centre */
         EXPECT_NEAR(out.vt, c.in.vt, size);
         EXPECT_NEAR(out.spin * sqrt(p.k2), (c.in.spin - p.r * impulse / p.k2) * sqrt(p.k2), size);
@@ -122,7 +122,7 @@ TEST(rolling_friction_takes_spin)
         double radius = line_log_uniform(&r, 0.05, 2), vn = line_uniform(&r, 1, 20), e = line_uniform(&r, 0, 1);
         double spin = line_uniform(&r, -5, 5) * vn / radius, friction = line_uniform(&r, 0, 1);
         struct blow c = {radius, radius, radius, line_uniform(&r, -1.5, 1.5), e, 0, friction, {vn, vn, spin}};
-        struct impact out = struck(&c);
+        struct impact out = apply_impact(&c);
         double most = friction * radius * (1 + e) * vn / (0.4 * radius * radius), left = fmax(fabs(spin) - most, 0);
         EXPECT_NEAR(out.spin * radius, copysign(left, spin) * radius, 1e-13 * vn);
         EXPECT_NEAR(out.vt, vn, 1e-14 * vn);
@@ -143,8 +143,8 @@ TEST(a_sticking_point_without_bounce_stops)
         c.in.vn = 10;
         c.in.vt = line_uniform(&r, -10, 10);
         c.in.spin = line_uniform(&r, -5, 5) / c.radius;
-        struct impact out = struck(&c);
-        struct point p = point_of(&c, out, out.vn);
+        struct impact out = apply_impact(&c);
+        struct point p = contact_point(&c, out, out.vn);
         if (out.vn == 0)
             continue; /* the centre still moved down: there was a second impact */
         EXPECT_NEAR(p.un, 0, 1e-13);
@@ -169,7 +169,7 @@ TEST(a_rock_stops_if_both_frictions_hold_it)
             continue;
         for (int n = 0; n < 2000; n++) {
             c.in = (struct impact){.vn = 1, .vt = vt + slope, .spin = spin};
-            struct impact out = struck(&c);
+            struct impact out = apply_impact(&c);
             EXPECT(out.vn, ==, 0);
             vt = out.vt;
             spin = out.spin;
@@ -188,9 +188,9 @@ TEST(no_arm_impact_gains_energy)
     struct line_random r = {.state = 5};
     for (int i = 0; i < BLOWS; i++) {
         struct blow c = random_blow(&r);
-        struct impact out = struck(&c);
+        struct impact out = apply_impact(&c);
         EXPECT(out.vn, >=, 0);
-        EXPECT(energy_of(&c, out), <=, energy_of(&c, c.in) * (1 + 1e-13));
+        EXPECT(compute_energy(&c, out), <=, compute_energy(&c, c.in) * (1 + 1e-13));
     }
 }
 
@@ -203,20 +203,20 @@ struct stepper {
     long double impulse, work, compression;
 };
 
-static long double un_of(const struct stepper *s)
+static long double normal_speed(const struct stepper *s)
 {
     return s->vn - s->spin * s->r;
 }
 
-static long double ut_of(const struct stepper *s)
+static long double slip_speed(const struct stepper *s)
 {
     return s->vt - s->spin * s->h;
 }
 
 /* Return the friction per normal impulse. */
-static long double friction_of(const struct stepper *s)
+static long double compute_friction(const struct stepper *s)
 {
-    long double nt = s->r * s->h / s->k2, tt = 1 + s->h * s->h / s->k2, ut = ut_of(s);
+    long double nt = s->r * s->h / s->k2, tt = 1 + s->h * s->h / s->k2, ut = slip_speed(s);
     if (fabsl(ut) > 1e-15L)
         return ut > 0 ? -s->mu : s->mu;
     return fmaxl(-s->mu, fminl(s->mu, -nt / tt));
@@ -224,62 +224,62 @@ static long double friction_of(const struct stepper *s)
 
 static void step(struct stepper *s, long double dp, long double friction)
 {
-    long double before = un_of(s);
+    long double before = normal_speed(s);
     s->vn += dp;
     s->vt += friction * dp;
     s->spin -= (s->r * dp + s->h * friction * dp) / s->k2;
-    s->work += (before + un_of(s)) / 2 * dp;
+    s->work += (before + normal_speed(s)) / 2 * dp;
     s->impulse += dp;
 }
 
 /* Return the largest step with constant friction. */
 static long double until_slip_ends(const struct stepper *s, long double friction, long double dp)
 {
-    long double ut = ut_of(s);
+    long double ut = slip_speed(s);
     struct stepper then = *s;
     step(&then, dp, friction);
-    if (fabsl(ut) > 1e-15L && ut * ut_of(&then) < 0)
-        return dp * ut / (ut - ut_of(&then));
+    if (fabsl(ut) > 1e-15L && ut * slip_speed(&then) < 0)
+        return dp * ut / (ut - slip_speed(&then));
     return dp;
 }
 
 static void follow(struct stepper *s, long double e, bool newton)
 {
-    long double start = un_of(s), dp = fmaxl(fabsl(start), fabsl(ut_of(s))) / 500;
+    long double start = normal_speed(s), dp = fmaxl(fabsl(start), fabsl(slip_speed(s))) / 500;
     bool restores = false;
     while (start < 0) {
-        long double friction = friction_of(s), d = until_slip_ends(s, friction, dp), un = un_of(s);
+        long double friction = compute_friction(s), d = until_slip_ends(s, friction, dp), un = normal_speed(s);
         struct stepper then = *s;
         step(&then, d, friction);
-        if (!restores && un < 0 && un_of(&then) >= 0) {
-            step(s, d * un / (un - un_of(&then)), friction);
+        if (!restores && un < 0 && normal_speed(&then) >= 0) {
+            step(s, d * un / (un - normal_speed(&then)), friction);
             s->compression = s->work;
             restores = true;
             if (e == 0)
                 return;
             continue;
         }
-        bool over = newton ? un_of(&then) >= -e * start : then.work >= s->compression * (1 - e * e);
+        bool over = newton ? normal_speed(&then) >= -e * start : then.work >= s->compression * (1 - e * e);
         if (restores && over) {
             long double lo = 0, hi = d;
             for (int i = 0; i < 60; i++) {
                 long double middle = (lo + hi) / 2;
                 then = *s;
                 step(&then, middle, friction);
-                bool far = newton ? un_of(&then) >= -e * start : then.work >= s->compression * (1 - e * e);
+                bool far = newton ? normal_speed(&then) >= -e * start : then.work >= s->compression * (1 - e * e);
                 *(far ? &hi : &lo) = middle;
             }
             step(s, hi, friction);
             return;
         }
         *s = then;
-        if (fabsl(ut_of(s)) < 1e-15L) /* exactly 0, so that it sticks */
-            s->vt -= ut_of(s);
+        if (fabsl(slip_speed(s)) < 1e-15L) /* exactly 0, so that it sticks */
+            s->vt -= slip_speed(s);
     }
 }
 
 /* Minimise the energy by the impulses along the ground and the moment, within bounds: one at a time, many times. */
-static void settle(struct stepper *s, long double h, long double lo, long double hi, long double most)
+static void minimise_energy(struct stepper *s, long double h, long double lo, long double hi, long double most)
 {
     long double along = 0, moment = 0, vt = s->vt, spin = -s->spin;
     for (int i = 0; i < 20000; i++) {
@@ -294,21 +294,21 @@ static void settle(struct stepper *s, long double h, long double lo, long double
     s->spin = -(spin + (h * along + moment) / s->k2);
 }
 
-static struct stepper stepper_of(const struct blow *c)
+static struct stepper make_stepper(const struct blow *c)
 {
-    struct point p = point_of(c, c->in, -c->in.vn);
+    struct point p = contact_point(c, c->in, -c->in.vn);
     return (struct stepper){.vt = c->in.vt, .vn = -c->in.vn, .spin = c->in.spin, .r = p.r, .h = p.h, .k2 = p.k2, .mu = c->mu};
 }
 
-static struct stepper stepped(const struct blow *c)
+static struct stepper integrate_impact(const struct blow *c)
 {
-    struct stepper s = stepper_of(c);
+    struct stepper s = make_stepper(c);
     follow(&s, c->e, false);
-    settle(&s, s.h, 0, 0, c->friction * c->radius * s.impulse);
+    minimise_energy(&s, s.h, 0, 0, c->friction * c->radius * s.impulse);
     long double down = fmaxl(0, -s.vn);
     s.vn += down;
     if (down > 0)
-        settle(&s, c->radius, -s.mu * down, s.mu * down, c->friction * c->radius * down);
+        minimise_energy(&s, c->radius, -s.mu * down, s.mu * down, c->friction * c->radius * down);
     return s;
 }
 
@@ -317,9 +317,9 @@ TEST(impacts_equal_integration_in_small_steps)
     struct line_random r = {.state = 6};
     for (int i = 0; i < STEPPED; i++) {
         struct blow c = random_blow(&r);
-        struct impact out = struck(&c);
-        struct stepper s = stepped(&c);
-        double size = sqrt(energy_of(&c, c.in)) * 1e-8;
+        struct impact out = apply_impact(&c);
+        struct stepper s = integrate_impact(&c);
+        double size = sqrt(compute_energy(&c, c.in)) * 1e-8;
         ROWS(EXPECT_NEAR, (out.vn, (double)s.vn, size), (out.vt, (double)s.vt, size),
              (out.spin * c.radius, (double)s.spin * c.radius, size));
     }
@@ -334,14 +334,14 @@ TEST(restitution_by_speed_would_gain_energy)
         struct blow c = random_blow(&r);
         c.friction = 0;
         c.e = 0.95;
-        struct stepper s = stepper_of(&c);
+        struct stepper s = make_stepper(&c);
         follow(&s, c.e, true);
-        double k2 = (double)s.k2, before = energy_of(&c, c.in);
+        double k2 = (double)s.k2, before = compute_energy(&c, c.in);
         double after = (double)(s.vn * s.vn + s.vt * s.vt + s.k2 * s.spin * s.spin);
         if (!(after > before * (1 + 1e-9)) || !(k2 > 0))
             continue;
         gains++;
-        EXPECT(energy_of(&c, struck(&c)), <=, before * (1 + 1e-13));
+        EXPECT(compute_energy(&c, apply_impact(&c)), <=, before * (1 + 1e-13));
     }
     EXPECT(gains, >, 0);
     print_message("%d of %d blows would gain energy\n", gains, STEPPED);
@@ -358,7 +358,7 @@ static double speed_off(double turn, void *context)
 {
     struct blow c = *(const struct blow *)context;
     c.turn = turn;
-    return struck(&c).vn;
+    return apply_impact(&c).vn;
 }
 
 /* Return the mean over the pairs of axes and all rotations. */

@@ -70,7 +70,7 @@ static const struct rock {
     {"block by axes and mass", CEDUO_BLOCK, NAN, NAN, NAN, 900, {.4, .9, 1.3}},
 };
 
-static struct ceduo_rock_def def_of(const struct rock *r)
+static struct ceduo_rock_def make_def(const struct rock *r)
 {
     struct ceduo_rock_def def = ceduo_scene_default().rock;
     def.shape = r->shape;
@@ -86,7 +86,7 @@ static struct ceduo_rock_def def_of(const struct rock *r)
 TEST(every_description_keeps_shape_and_density)
 {
     for (size_t i = 0; i < LENGTH(rocks); i++) {
-        struct ceduo_rock_def def = def_of(&rocks[i]), other = ceduo_rock_scaled(&def, 2);
+        struct ceduo_rock_def def = make_def(&rocks[i]), other = ceduo_rock_scaled(&def, 2);
         struct ceduo_rock was, is;
         assert_int_equal(ceduo_rock_of_means(&def, &was), CEDUO_OK);
         assert_int_equal(ceduo_rock_of_means(&other, &is), CEDUO_OK);
@@ -152,7 +152,7 @@ TEST(the_own_size_is_sorted_among_the_others)
 TEST(blocks_have_the_mass_and_width_of_their_volume)
 {
     for (size_t i = 0; i < LENGTH(rocks); i++) {
-        struct ceduo_rock_def def = def_of(&rocks[i]);
+        struct ceduo_rock_def def = make_def(&rocks[i]);
         struct ceduo_size_result b[CEDUO_SIZES];
         struct ceduo_rock own;
         assert_int_equal(ceduo_rock_of_means(&def, &own), CEDUO_OK);
@@ -210,8 +210,8 @@ static struct ceduo_estimate rate_above_100_kj(double fall, double height)
     g.scene.blocks = &blocks;
     g.scene.blocks_count = 1;
     const struct ceduo_run_def def = ceduo_run_def_default(&g.scene);
-    LOCAL(ceduo_run, run) = run_of(&def, 1000);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    LOCAL(ceduo_run, run) = make_run(&def, 1000);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT(a.reached, ==, 0);
     return a.hazard.accepted;
 }

@@ -7,21 +7,21 @@
 #include "ceduo/ceduo.h"
 #include "line_scene.h"
 
-#define GOALS 1000
-#define MOST  60 /* maximum evaluations */
+#define GOALS           1000
+#define EVALUATIONS_MAX 60 /* maximum evaluations */
 
 /* A goal, and the values at which it was evaluated. */
 struct asked {
     double (*goal)(const struct asked *asked, double value);
     double p[4];
-    double values[MOST];
+    double values[EVALUATIONS_MAX];
     unsigned count;
 };
 
-static enum ceduo_status ask(void *context, double value, double *goal)
+static enum ceduo_status evaluate(void *context, double value, double *goal)
 {
     struct asked *a = context;
-    EXPECT(a->count, <, MOST);
+    EXPECT(a->count, <, EVALUATIONS_MAX);
     for (unsigned i = 0; i < a->count; i++)
         EXPECT(a->values[i], !=, value); /* no value twice */
     a->values[a->count++] = value;
@@ -29,7 +29,7 @@ static enum ceduo_status ask(void *context, double value, double *goal)
     return CEDUO_OK;
 }
 
-static bool passes(const struct asked *a, double target, double value)
+static bool is_passing(const struct asked *a, double target, double value)
 {
     return a->goal(a, value) <= target;
 }
@@ -37,13 +37,13 @@ static bool passes(const struct asked *a, double target, double value)
 static struct ceduo_found find_with(struct asked *a, double lo, double hi, bool whole, double target, double tolerance)
 {
     struct ceduo_find_def def = {
-        .lo = lo, .hi = hi, .whole = whole, .target = target, .goal = ask, .context = a, .tolerance = tolerance};
+        .lo = lo, .hi = hi, .whole = whole, .target = target, .goal = evaluate, .context = a, .tolerance = tolerance};
     struct ceduo_found found;
     a->count = 0;
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
     assert_int_equal(found.evaluations, a->count);
     if (found.found) {
-        assert_true(passes(a, target, found.value));
+        assert_true(is_passing(a, target, found.value));
         ROWS(EXPECT, (found.goal_at_value, ==, a->goal(a, found.value)), (found.value, >=, lo), (found.value, <=, hi));
         assert_true((!whole || found.value == floor(found.value)));
     } else {
@@ -57,7 +57,7 @@ static struct ceduo_found find(struct asked *a, double lo, double hi, bool whole
     return find_with(a, lo, hi, whole, target, 0);
 }
 
-static bool was_asked(const struct asked *a, double value)
+static bool was_evaluated(const struct asked *a, double value)
 {
     for (unsigned i = 0; i < a->count; i++)
         if (a->values[i] == value)
@@ -71,7 +71,7 @@ static void expect_edge(const struct asked *a, const struct ceduo_found *found, 
     double out = found->side == CEDUO_SMALLEST ? -1 : 1, nearest = INFINITY;
     for (unsigned i = 0; i < a->count; i++) {
         double away = (a->values[i] - found->value) * out;
-        if (away > 0 && away < nearest && !passes(a, target, a->values[i]))
+        if (away > 0 && away < nearest && !is_passing(a, target, a->values[i]))
             nearest = away;
     }
     if (!(nearest <= width * (1 + 1e-12)))
@@ -98,14 +98,14 @@ TEST(reserves_for_30_m)
     } rocks[] = {{.56, 439}, {.68, 379}, {.80, 334}};
     for (size_t i = 0; i < LENGTH(rocks); i++) {
         struct asked a = {.goal = adc_of_reserves, .p = {.20, rocks[i].b}};
-        assert_false(passes(&a, 30, 60));
+        assert_false(is_passing(&a, 30, 60));
         struct ceduo_found found = find(&a, 0, 5000, true, 30); /* infinite at 0 */
         assert_true(found.found);
         assert_true(found.monotone);
         assert_false(found.whole_range);
         EXPECT_IS(found, (side, CEDUO_SMALLEST), (value, rocks[i].needed));
-        assert_true(was_asked(&a, rocks[i].needed - 1));
-        assert_false(passes(&a, 30, rocks[i].needed - 1));
+        assert_true(was_evaluated(&a, rocks[i].needed - 1));
+        assert_false(is_passing(&a, 30, rocks[i].needed - 1));
         EXPECT(found.evaluations, <, 20);
         found = find(&a, 0, 5000, false, 30);
         assert_true(found.found);
@@ -158,7 +158,7 @@ TEST(inverse_and_forward_agree)
         if (isnan(target)) /* for a value below 0 */
             target = curve(&a, (lo + hi) / 2);
         struct ceduo_found found = find(&a, lo, hi, whole, target);
-        bool at_lo = passes(&a, target, lo), at_hi = passes(&a, target, hi);
+        bool at_lo = is_passing(&a, target, lo), at_hi = is_passing(&a, target, hi);
         assert_true(found.monotone);
         assert_int_equal(found.found, at_lo || at_hi);
         assert_int_equal(found.whole_range, at_lo && at_hi);
@@ -226,7 +226,7 @@ TEST(steps_and_jumps)
     expect_edge(&a, &found, -10, 1e-7);
     found = find(&a, 0, 100, true, -10);
     EXPECT(found.value, ==, 14);
-    assert_true(was_asked(&a, 13));
+    assert_true(was_evaluated(&a, 13));
     a = (struct asked){.goal = cliff, .p = {.123456}};
     found = find(&a, 0, 1, false, 1e-6);
     EXPECT(found.side, ==, CEDUO_LARGEST);
@@ -244,11 +244,11 @@ TEST(large_whole_numbers)
     struct asked a = {.goal = line, .p = {-1}};
     struct ceduo_found found = find(&a, 0, 1e12, true, -123456789012);
     EXPECT(found.value, ==, 123456789012);
-    assert_true(was_asked(&a, 123456789011));
+    assert_true(was_evaluated(&a, 123456789011));
     EXPECT(found.evaluations, <, 45);
     found = find(&a, .5, 3.5, true, -2.5); /* 1…3 */
     EXPECT(found.value, ==, 3);
-    assert_true(was_asked(&a, 2));
+    assert_true(was_evaluated(&a, 2));
     EXPECT(found.evaluations, <=, 3);
     found = find(&a, 2.2, 2.8, true, 0);
     assert_false(found.found);
@@ -262,7 +262,7 @@ TEST(goals_that_are_not_monotone)
 {
     const struct {
         double middle, sign, target, edge, whole_edge;
-    } rows[] = {{60, 1, 402, 60 - sqrt(402), 40},    /* passes between failing ends */
+    } rows[] = {{60, 1, 402, 60 - sqrt(402), 40},    /* is_passing between failing ends */
                 {40, -1, -402, 40 + sqrt(402), 61}}; /* fails between passing ends */
     for (size_t i = 0; i < 2 * LENGTH(rows); i++) {
         bool whole = i % 2;
@@ -342,7 +342,7 @@ TEST(goals_that_are_not_finite)
         EXPECT_NEAR(found.value, 50, 1e-7);
         EXPECT(found.side, ==, CEDUO_SMALLEST);
         expect_edge(&a, &found, 50, 1e-7);
-        found = find(&a, 0, 100, false, 90); /* passes wherever it is a number; -inf from 0 on */
+        found = find(&a, 0, 100, false, 90); /* is_passing wherever it is a number; -inf from 0 on */
         assert_true(found.found);
         EXPECT(found.whole_range, ==, (i == 2));
         EXPECT_NEAR(found.value, (i == 2 ? 0 : 20.5), 1e-7);
@@ -378,7 +378,7 @@ TEST(any_goal_at_all)
         struct ceduo_found found = find(&a, lo, hi, whole, target);
         bool seen = false;
         for (unsigned j = 0; j < a.count; j++)
-            seen |= passes(&a, target, a.values[j]);
+            seen |= is_passing(&a, target, a.values[j]);
         assert_int_equal(found.found, seen);
         if (found.found && !found.whole_range)
             expect_edge(&a, &found, target, whole ? 1 : 1e-9 * (hi - lo));

@@ -15,7 +15,7 @@
 
 static double first[] = {0.02, 0.5}, second[] = {0.5, 40};
 
-static struct ceduo_scene scene_of(struct ceduo_size_class *classes, size_t n)
+static struct ceduo_scene make_scene(struct ceduo_size_class *classes, size_t n)
 {
     struct ceduo_scene scene = ceduo_scene_default();
     scene.blocks = classes;
@@ -23,8 +23,8 @@ static struct ceduo_scene scene_of(struct ceduo_size_class *classes, size_t n)
     return scene;
 }
 
-/* Return the blocks per year of a class above volume v. */
-static double above(const struct ceduo_size_class *c, double v)
+/* Return the blocks per year of a class rate_above volume v. */
+static double rate_above(const struct ceduo_size_class *c, double v)
 {
     double lo = c->volumes[0], hi = c->volumes[1], b = c->exponent;
     v = fmin(fmax(v, lo), hi);
@@ -32,11 +32,11 @@ static double above(const struct ceduo_size_class *c, double v)
     return c->per_year * share;
 }
 
-/* Weights sum to the frequency of blocks above any volume; volumes have evenly spaced logarithms. */
+/* Weights sum to the frequency of blocks rate_above any volume; volumes have evenly spaced logarithms. */
 TEST(weights_sum_to_the_frequency_of_blocks)
 {
     struct ceduo_size_class classes[] = {{3, 1.1, 2, first}, {0.05, 0, 2, second}};
-    struct ceduo_scene scene = scene_of(classes, 2);
+    struct ceduo_scene scene = make_scene(classes, 2);
     LOCAL_BY(ceduo_sizes_release) struct sizes sizes;
     assert_true(ceduo_sizes_init(&sizes, &scene));
     EXPECT_NEAR(sizes.per_year, 3.05, 1e-12);
@@ -47,7 +47,7 @@ TEST(weights_sum_to_the_frequency_of_blocks)
             rate += s.volume > v ? s.weight * sizes.per_year / ROCKS : 0;
             larger += s.volume > v;
         }
-        EXPECT_NEAR(rate, above(&classes[0], v) + above(&classes[1], v), 1e-3 * rate + 1e-4);
+        EXPECT_NEAR(rate, rate_above(&classes[0], v) + rate_above(&classes[1], v), 1e-3 * rate + 1e-4);
         EXPECT_NEAR(larger / ROCKS, log(40 / v) / log(40 / 0.02), 1e-3);
     }
 }
@@ -56,7 +56,7 @@ TEST(weights_sum_to_the_frequency_of_blocks)
 TEST(every_few_rocks_have_all_sizes)
 {
     struct ceduo_size_class class = {1, 1, 2, second};
-    struct ceduo_scene scene = scene_of(&class, 1);
+    struct ceduo_scene scene = make_scene(&class, 1);
     struct sizes sizes;
     for (uint64_t seed = 1; seed < 20; seed++) {
         scene.simulation.seed = seed;
@@ -80,7 +80,7 @@ TEST(every_few_rocks_have_all_sizes)
 TEST(typical_rocks_have_the_frequencies_of_blocks)
 {
     struct ceduo_size_class class = {1, 0.8, 2, second}, both[2] = {{3, 1.1, 2, first}, {0.5, 0.8, 2, second}};
-    struct ceduo_scene scene = scene_of(&class, 1);
+    struct ceduo_scene scene = make_scene(&class, 1);
     struct sizes sizes;
     assert_true(ceduo_sizes_init(&sizes, &scene));
     double n = 0, larger = 0;
@@ -89,10 +89,10 @@ TEST(typical_rocks_have_the_frequencies_of_blocks)
             n++;
             larger += ceduo_rock_size(&sizes, r).volume > 2;
         }
-    double p = above(&class, 2);
+    double p = rate_above(&class, 2);
     EXPECT_NEAR(larger / n, p, 4 * sqrt(p * (1 - p) / n));
     ceduo_sizes_release(&sizes);
-    scene = scene_of(both, 2); /* two classes; the second is rarer in each range */
+    scene = make_scene(both, 2); /* two classes; the second is rarer in each range */
     assert_true(ceduo_sizes_init(&sizes, &scene));
     n = larger = 0;
     for (uint64_t r = 0; r < ROCKS; r++)
@@ -126,7 +126,7 @@ TEST(a_rock_is_scaled_as_a_whole)
 #define N 1000
 
 /* Fill unordered values; 1 - share of the rocks arrive. */
-static size_t some_values(struct weighted *values, double weight, size_t n)
+static size_t fill_values(struct weighted *values, double weight, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         uint32_t x = (uint32_t)i * 2654435761u + 12345u;
@@ -143,7 +143,7 @@ TEST(equal_weights_change_nothing)
         const double weight = 3;
         struct released all = {.n = N, .w = N * weight, .ww = N * weight * weight, .per_year = 1};
         struct weighted_sum ones = {0};
-        some_values(values, weight, n);
+        fill_values(values, weight, n);
         for (size_t i = 0; i < n; i++)
             weighted_sum_add(&ones, weight, 1);
         struct ceduo_estimate wilson = ceduo_wilson((double)n / N, (double)n / N, N);
@@ -215,7 +215,7 @@ TEST(quantiles_by_hand)
     EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a share that is reached exactly is its last value */
     ROWS(EXPECT_NEAR, (ceduo_weighted_quantile(values, 3, 0.26), 2, 0), (ceduo_weighted_quantile(values, 3, 0.75), 2, 0),
          (ceduo_weighted_quantile(values, 3, 0.76), 3, 0));
-    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* above all values */
+    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* rate_above all values */
     assert_true(isnan(ceduo_weighted_quantile(values, 0, 0.5)));
     const struct released all = {.n = 3, .w = 4, .ww = 6, .per_year = 1};
     struct weighted one = {5, 1};
@@ -253,9 +253,10 @@ TEST(few_rocks_give_bounds)
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
         EXPECT_NEAR(h.intensity[i].within.mean, 0.0005, 1e-15);
     assert_true(isnan(h.returns[3].energy.mean) &&
-                isnan(h.returns[3].energy.lo));  /* 0.0015 a year: less than one in 300 years */
-    EXPECT_NEAR(h.returns[3].energy.hi, 1e5, 0); /* 1/150 of the blocks: Wilson's bound of one in N is above, of two below */
-    assert_true(isnan(h.returns[1].energy.hi));  /* one in 30 years exceeds the upper bound of all three */
+                isnan(h.returns[3].energy.lo)); /* 0.0015 a year: less than one in 300 years */
+    EXPECT_NEAR(h.returns[3].energy.hi, 1e5,
+                0); /* 1/150 of the blocks: Wilson's bound of one in N is rate_above, of two below */
+    assert_true(isnan(h.returns[1].energy.hi)); /* one in 30 years exceeds the upper bound of all three */
     assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h, NULL));
     assert_true(isnan(h.accepted.mean));
     EXPECT_NEAR(ceduo_hazard_feared(&h).mean, 0.0015, 1e-15);

@@ -95,7 +95,7 @@ TEST(stems_of_many_diameters_take_their_mean_volume)
 /* ---- heights ---- */
 
 /* Return stem number i of a rock's trajectory if all stems have this height. */
-static struct ceduo_stem_encounter stem_of_height(uint64_t rock, size_t i, double height)
+static struct ceduo_stem_encounter find_stem(uint64_t rock, size_t i, double height)
 {
     uint64_t hits = 0;
     kind.height = height;
@@ -116,15 +116,15 @@ TEST(a_stem_as_high_as_the_rock_flies_is_not_hit)
             plant(200, .3, shoots);
             line_scene_release(&scene, 0, 30, 40, 0, 0);
             for (size_t i = 0; i < 5; i++) {
-                struct ceduo_stem_encounter low = stem_of_height(rock, i, 1);
+                struct ceduo_stem_encounter low = find_stem(rock, i, 1);
                 assert_false(low.hit);
                 EXPECT(low.clearance, >, 1);
-                struct ceduo_stem_encounter at = stem_of_height(rock, i, low.clearance);
+                struct ceduo_stem_encounter at = find_stem(rock, i, low.clearance);
                 EXPECT_SAME(at, low, x, clearance);
                 EXPECT(at.clearance, ==, at.height);
                 assert_false(at.hit);
                 EXPECT(at.taken, ==, 0);
-                struct ceduo_stem_encounter higher = stem_of_height(rock, i, nextafter(low.clearance, INFINITY));
+                struct ceduo_stem_encounter higher = find_stem(rock, i, nextafter(low.clearance, INFINITY));
                 EXPECT_SAME(higher, low, x, clearance);
                 assert_true(higher.hit);
                 EXPECT(higher.taken, >, 0);
@@ -139,10 +139,10 @@ TEST(a_rock_with_a_centre_above_the_stems_hits_none)
     for (uint64_t rock = 0; rock < 20; rock++) {
         plant(200, radius, false);
         line_scene_release(&scene, 0, 30, 40, 0, 0);
-        double middle = stem_of_height(rock, 0, 1).clearance + radius;
+        double middle = find_stem(rock, 0, 1).clearance + radius;
         belt.stand.hit_below = middle * (1 - 1e-12);
-        assert_false(stem_of_height(rock, 0, 90).hit);
+        assert_false(find_stem(rock, 0, 90).hit);
         belt.stand.hit_below = middle * (1 + 1e-12);
-        assert_true(stem_of_height(rock, 0, 90).hit);
+        assert_true(find_stem(rock, 0, 90).hit);
     }
 }

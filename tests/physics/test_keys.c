@@ -23,7 +23,7 @@ enum about {
 static struct paper_site site;
 static double stay[] = {40, 20}; /* trees that the cutting retains */
 
-static uint64_t key_of(enum about about)
+static uint64_t compute_key(enum about about)
 {
     return about == FLIGHT  ? ceduo_scene_key(&site.scene)
            : about == YEARS ? ceduo_years_key(&site.option)
@@ -84,7 +84,7 @@ static void change(void *at, enum kind kind)
 
 static void expect_decides(enum about about, uint64_t before, const char *name, const char *part, bool decides)
 {
-    if ((key_of(about) != before) != decides)
+    if ((compute_key(about) != before) != decides)
         fail_msg("%s%s, key of %d: it %s", name, part, about, decides ? "stays" : "changes");
 }
 
@@ -92,15 +92,15 @@ static void expect_decides(enum about about, uint64_t before, const char *name, 
 static void walk_spread(enum about about, struct ceduo_number *n, const char *name)
 {
     const enum ceduo_spread_kind kind = n->kind, other = kind == CEDUO_NORMAL ? CEDUO_UNIFORM : CEDUO_NORMAL;
-    uint64_t before = key_of(about);
+    uint64_t before = compute_key(about);
     n->kind = other;
     expect_decides(about, before, name, ", kind without spread", false);
     change(&n->mean, NUMBER);
     expect_decides(about, before, name, ", mean", true);
-    before = key_of(about);
+    before = compute_key(about);
     n->spread = .25;
     expect_decides(about, before, name, ", spread", true);
-    before = key_of(about);
+    before = compute_key(about);
     n->kind = kind;
     expect_decides(about, before, name, ", kind", true);
 }
@@ -111,7 +111,7 @@ static void walk(enum about about, void *structure, size_t size, const struct fi
 {
     unsigned char was[KEY_SIZE_MAX];
     memcpy(was, structure, size);
-    const uint64_t before = key_of(about);
+    const uint64_t before = compute_key(about);
     for (size_t i = 0; i < n; i++) {
         const struct field *f = &fields[i];
         void *at = (char *)structure + f->offset;
@@ -122,7 +122,7 @@ static void walk(enum about about, void *structure, size_t size, const struct fi
             expect_decides(about, before, f->name, "", f->decides & about);
         }
         memcpy(structure, was, size);
-        EXPECT(key_of(about), ==, before);
+        EXPECT(compute_key(about), ==, before);
     }
 }
 
@@ -131,7 +131,7 @@ static void walk(enum about about, void *structure, size_t size, const struct fi
 /* Walk over consecutive numbers; each matters. */
 static void walk_numbers(enum about about, double *numbers, size_t n, const char *name)
 {
-    const uint64_t before = key_of(about);
+    const uint64_t before = compute_key(about);
     for (size_t i = 0; i < n; i++) {
         double was = numbers[i];
         change(&numbers[i], NUMBER);
@@ -324,13 +324,13 @@ TEST(block_frequencies_affect_the_scene_key)
     double volumes[] = {0.1, 1, 1, 5};
     struct ceduo_size_class classes[] = {{2, 1, 2, volumes}, {1, 0, 2, volumes + 2}};
     open_site();
-    uint64_t none = key_of(FLIGHT);
+    uint64_t none = compute_key(FLIGHT);
     site.scene.blocks = classes;
     site.scene.blocks_count = 1;
-    uint64_t one = key_of(FLIGHT);
+    uint64_t one = compute_key(FLIGHT);
     EXPECT(one, !=, none);
     site.scene.blocks_count = 2;
-    EXPECT(key_of(FLIGHT), !=, one);
+    EXPECT(compute_key(FLIGHT), !=, one);
     for (size_t i = 0; i < LENGTH(classes); i++)
         WALK(FLIGHT, &classes[i], class_fields);
     walk_numbers(FLIGHT, volumes, LENGTH(volumes), "volume");
@@ -342,16 +342,16 @@ TEST(exchanged_values_affect_the_scene_key)
     open_site();
     site.scene.release.vx = ceduo_number(2);
     site.scene.release.vz = ceduo_number(-1);
-    uint64_t key = key_of(FLIGHT);
+    uint64_t key = compute_key(FLIGHT);
     site.scene.release.vx = ceduo_number(-1);
     site.scene.release.vz = ceduo_number(2);
-    EXPECT(key_of(FLIGHT), !=, key);
+    EXPECT(compute_key(FLIGHT), !=, key);
     site.segments[0].roughness_m = .25;
     site.segments[0].roughness_rad = NAN;
-    key = key_of(FLIGHT);
+    key = compute_key(FLIGHT);
     site.segments[0].roughness_m = NAN;
     site.segments[0].roughness_rad = .25;
-    EXPECT(key_of(FLIGHT), !=, key);
+    EXPECT(compute_key(FLIGHT), !=, key);
 }
 
 TEST(stems_affect_the_forest_key)
@@ -376,9 +376,9 @@ TEST(low_wood_and_groups_affect_the_forest_key)
 {
     open_site();
     struct ceduo_stand *stand = &site.belts[0].stand;
-    uint64_t bare = key_of(STEMS);
+    uint64_t bare = compute_key(STEMS);
     stand->stumps.energy = stand->logs.energy = site.plots[0].trees.group_radius = 3;
-    EXPECT(key_of(STEMS), ==, bare);
+    EXPECT(compute_key(STEMS), ==, bare);
     stand->stumps = (struct ceduo_stumps){.per_ha = 300, .diameter = .2, .height = .3, .energy = 1e3};
     stand->logs = (struct ceduo_logs){.per_ha = 300, .length = 2, .diameter = .3, .energy = 1e3};
     site.plots[0].trees.group = 3;
@@ -393,26 +393,26 @@ TEST(other_stems_make_another_forest)
     struct ceduo_stand *stand = &site.belts[0].stand;
     struct ceduo_stems *shoots = &site.plots[0].shoots;
     struct ceduo_stems both[] = {site.plots[0].shoots, site.plots[0].trees};
-    uint64_t key = key_of(STEMS);
+    uint64_t key = compute_key(STEMS);
     stand->shoots = both; /* former trees are now shoots of the stools */
     stand->shoots_count = 2;
     stand->trees_count = 0;
-    EXPECT(key_of(STEMS), !=, key);
+    EXPECT(compute_key(STEMS), !=, key);
     open_site();
     stand->trees_count = 0;
     shoots->volume = 1.5; /* a hit takes 1.5 J, or 1.5 times dorren's energy */
     stand->u = 1;
-    key = key_of(STEMS);
+    key = compute_key(STEMS);
     stand->energy = CEDUO_DORREN;
     stand->fracture_ratio = 1.5;
-    EXPECT(key_of(DORREN), !=, key);
+    EXPECT(compute_key(DORREN), !=, key);
     open_site();
     shoots->dbh_sd = .02;
     shoots->volume = NAN; /* each stem has its species' volume at its diameter, */
-    key = key_of(DBHS);
+    key = compute_key(DBHS);
     enum ceduo_volume_from from;
     shoots->volume = ceduo_stem_volume(stand, shoots, &from);
-    EXPECT(key_of(DBHS), !=, key); /* or all together have the given mean */
+    EXPECT(compute_key(DBHS), !=, key); /* or all together have the given mean */
 }
 
 /* Stems with equal energy per hit are the same forest: half the volume with twice the work. Without stems there is no forest,
@@ -424,20 +424,20 @@ TEST(stems_with_equal_energy_are_the_same_forest)
     stand->trees_count = 0;
     stand->u = 1000;
     site.plots[0].shoots.volume = 2;
-    uint64_t key = key_of(STEMS);
+    uint64_t key = compute_key(STEMS);
     stand->u = 2000;
     site.plots[0].shoots.volume = 1;
-    EXPECT(key_of(STEMS), ==, key);
+    EXPECT(compute_key(STEMS), ==, key);
     stand->shoots_count = 0;
-    key = key_of(STEMS);
+    key = compute_key(STEMS);
     site.belts[0].to -= 1; /* a belt without stems */
-    EXPECT(key_of(STEMS), ==, key);
+    EXPECT(compute_key(STEMS), ==, key);
     EXPECT(key, !=, 0);
     site.belts[1].stand.shoots_count = site.belts[1].stand.trees_count = 0;
-    EXPECT(key_of(STEMS), ==, 0);
+    EXPECT(compute_key(STEMS), ==, 0);
     open_site();
     site.scene.simulation.contact_model = CEDUO_INDEX;
-    EXPECT(key_of(STEMS), ==, 0);
+    EXPECT(compute_key(STEMS), ==, 0);
 }
 
 /* The same number of shoots in three cohorts, with the shares of the last two exchanged. */
@@ -452,10 +452,10 @@ TEST(cohorts_of_another_share_make_another_forest)
     }
     site.belts[0].stand.shoots = cohorts;
     site.belts[0].stand.shoots_count = LENGTH(cohorts);
-    uint64_t key = key_of(STEMS);
+    uint64_t key = compute_key(STEMS);
     cohorts[1].per_ha = 3000;
     cohorts[2].per_ha = 2000;
-    EXPECT(key_of(STEMS), !=, key);
+    EXPECT(compute_key(STEMS), !=, key);
 }
 
 TEST(inputs_of_growth_affect_the_years_key)

@@ -36,8 +36,8 @@ static void expect_same_bits(const char *scene, const char *what, const void *a,
 
 static void compare_control(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b, size_t control)
 {
-    struct ceduo_arrivals p = arrivals_of(a, control);
-    struct ceduo_arrivals q = arrivals_of(b, control);
+    struct ceduo_arrivals p = read_arrivals(a, control);
+    struct ceduo_arrivals q = read_arrivals(b, control);
     expect_same_bits(scene, "arrivals", &p, &q, sizeof p);
     static double energies[2][5000];
     size_t n = ceduo_run_energies(a, control, energies[0], 5000);
@@ -62,8 +62,8 @@ static void compare(const char *scene, const struct ceduo_run *a, const struct c
         fail_msg("%s: %ju contacts, scalar %ju", scene, (uintmax_t)ceduo_run_contacts(b), (uintmax_t)ceduo_run_contacts(a));
     struct ceduo_stem_counts s = ceduo_run_stems(a), t = ceduo_run_stems(b);
     expect_same_bits(scene, "stems", &s, &t, sizeof s);
-    struct ceduo_ends e = ends_of(a);
-    struct ceduo_ends f = ends_of(b);
+    struct ceduo_ends e = read_ends(a);
+    struct ceduo_ends f = read_ends(b);
     expect_same_bits(scene, "ends", &e, &f, sizeof e);
     compare_places(scene, a, b, def);
 }
@@ -88,7 +88,7 @@ static uint64_t expect_same_arrivals(const char *scene, const struct ceduo_run *
     struct ceduo_run *run = run_with(short_def, kernel, ceduo_run_rocks(whole), ceduo_run_rocks(whole));
     EXPECT(ceduo_run_contacts(run), <=, ceduo_run_contacts(whole));
     compare_places(scene, whole, run, def);
-    struct ceduo_ends ends = ends_of(run);
+    struct ceduo_ends ends = read_ends(run);
     EXPECT(ends.count[CEDUO_LEFT_SLOPE], ==, 0);
     assert_true(isnan(ends.stop_max));
     uint64_t saved = ceduo_run_contacts(whole) - ceduo_run_contacts(run);

@@ -139,7 +139,7 @@ TEST(energy_that_is_just_used_up_is_not_exhausted)
 
 /* ---- rocks ---- */
 
-static enum ceduo_light light_of(double exceed, uint64_t unfinished)
+static enum ceduo_light judge_share(double exceed, uint64_t unfinished)
 {
     const struct ceduo_arrivals a = {
         .released = 20, .exceed.mean = exceed, .limit = CEDUO_EXCEED_MAX, .unfinished = unfinished};
@@ -148,11 +148,11 @@ static enum ceduo_light light_of(double exceed, uint64_t unfinished)
 
 TEST(a_share_of_a_twentieth_passes)
 {
-    assert_int_equal(light_of(.05, 0), CEDUO_PASS);
-    assert_int_equal(light_of(next_above(.05), 0), CEDUO_FAIL);
-    assert_int_equal(light_of(0, 1), CEDUO_PASS); /* 1 in 20 in either case */
-    assert_int_equal(light_of(1e-16, 1), CEDUO_UNKNOWN);
-    assert_int_equal(light_of(.05, 1), CEDUO_UNKNOWN);
+    assert_int_equal(judge_share(.05, 0), CEDUO_PASS);
+    assert_int_equal(judge_share(next_above(.05), 0), CEDUO_FAIL);
+    assert_int_equal(judge_share(0, 1), CEDUO_PASS); /* 1 in 20 in either case */
+    assert_int_equal(judge_share(1e-16, 1), CEDUO_UNKNOWN);
+    assert_int_equal(judge_share(.05, 1), CEDUO_UNKNOWN);
 }
 
 /* Rocks of 2 kg; at 5 m/s they have 25 J. */
@@ -165,16 +165,16 @@ static void drop(double accepted)
     flat.scene.simulation.rocks = 20;
 }
 
-static struct ceduo_run *fly(const struct ceduo_option *option)
+static struct ceduo_run *simulate(const struct ceduo_option *option)
 {
     return run_option(&flat.scene, option, 20, 1);
 }
 
-static struct ceduo_arrivals arrive(double accepted)
+static struct ceduo_arrivals read_share(double accepted)
 {
     drop(accepted);
-    struct ceduo_run *run = fly(NULL);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_run *run = simulate(NULL);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT(a.reached, ==, 20);
     EXPECT_IS(a.energy, (mean, 25), (max, 25));
     ceduo_run_free(run);
@@ -183,30 +183,30 @@ static struct ceduo_arrivals arrive(double accepted)
 
 TEST(a_rock_with_the_accepted_energy_does_not_exceed_it)
 {
-    struct ceduo_arrivals a = arrive(25);
+    struct ceduo_arrivals a = read_share(25);
     EXPECT_IS(a, (exceeded, 0), (exceed.mean, 0));
     assert_int_equal(ceduo_energy_light(&a), CEDUO_PASS);
-    a = arrive(next_below(25));
+    a = read_share(next_below(25));
     EXPECT_IS(a, (exceeded, 20), (exceed.mean, 1));
     assert_int_equal(ceduo_energy_light(&a), CEDUO_FAIL);
 }
 
 /* Return the difference at the control made by trees between two places, for rocks with 25 J there. */
-static struct ceduo_difference by_trees(double from, double to, double accepted)
+static struct ceduo_difference compare_trees(double from, double to, double accepted)
 {
     struct ceduo_stems trees = {.per_ha = 2000, .dbh = .25, .height = 90, .volume = 1, .age = NAN};
     struct ceduo_belt belt = {.from = from, .to = to, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
     struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
     drop(accepted);
-    LOCAL(ceduo_run, through) = fly(&wood);
-    LOCAL(ceduo_run, bare) = fly(NULL);
+    LOCAL(ceduo_run, through) = simulate(&wood);
+    LOCAL(ceduo_run, bare) = simulate(NULL);
     return ceduo_run_difference(through, bare, 0);
 }
 
 /* The same in a difference: trees stop some rocks, and none exceeds, with or without the forest. */
 TEST(a_difference_counts_no_rock_with_the_accepted_energy)
 {
-    struct ceduo_difference d = by_trees(1, 4, 25);
+    struct ceduo_difference d = compare_trees(1, 4, 25);
     ROWS(EXPECT, (d.reach.mean, <, 0), (d.reach.se, >, 0), (d.exceed.mean, ==, 0));
     assert_true(isnan(d.exceed.se)); /* because no pair differs */
     assert_true(ceduo_pairs_are_equal(&d.exceed));
@@ -215,7 +215,7 @@ TEST(a_difference_counts_no_rock_with_the_accepted_energy)
 /* Stems after the control make no difference to it: this is exact, not estimated. */
 TEST(a_difference_by_stems_from_the_control_on_is_none)
 {
-    struct ceduo_difference d = by_trees(4, 8, 20);
+    struct ceduo_difference d = compare_trees(4, 8, 20);
     EXPECT(flat.control.x, ==, 4);
     const struct ceduo_estimate of[] = {d.reach, d.exceed, d.energy_per_released};
     for (size_t i = 0; i < 3; i++)
@@ -239,7 +239,7 @@ TEST(one_rock_of_twenty_may_exceed)
             EXPECT(energies[18], <, energies[19]);
             site.control.accepted = more ? next_below(energies[18]) : energies[18];
             LOCAL(ceduo_run, run) = run_option(&site.scene, NULL, 20, 1);
-            struct ceduo_arrivals a = arrivals_of(run, 0);
+            struct ceduo_arrivals a = read_arrivals(run, 0);
             assert_int_equal(a.exceeded, more ? 2 : 1);
             assert_int_equal(ceduo_energy_light(&a), more ? CEDUO_FAIL : CEDUO_PASS);
         }
@@ -259,7 +259,7 @@ TEST(an_index_can_depend_on_thin_stems)
 
 /* ---- too few arrivals ---- */
 
-static bool says_nothing(uint64_t released, uint64_t reached, uint64_t unfinished)
+static bool has_too_few(uint64_t released, uint64_t reached, uint64_t unfinished)
 {
     const struct ceduo_arrivals a = {.released = released, .reached = reached, .unfinished = unfinished};
     return ceduo_too_few_arrivals(&a);
@@ -268,14 +268,14 @@ static bool says_nothing(uint64_t released, uint64_t reached, uint64_t unfinishe
 /* None, or fewer than one in a thousand of at least a thousand rocks. */
 TEST(too_few_arrivals_give_no_answer)
 {
-    assert_false(says_nothing(0, 0, 0)); /* no rocks */
-    assert_true(says_nothing(1, 0, 0));
-    ROWS(assert_false, (says_nothing(1, 1, 0)), (says_nothing(999, 1, 0)), (says_nothing(1000, 1, 0)));
-    assert_true(says_nothing(1001, 1, 0));
-    assert_false(says_nothing(2000, 2, 0));
-    assert_true(says_nothing(2001, 2, 0));
-    assert_false(says_nothing(1001, 1, 1)); /* one may still arrive */
-    assert_false(says_nothing(10, 0, 1));
+    assert_false(has_too_few(0, 0, 0)); /* no rocks */
+    assert_true(has_too_few(1, 0, 0));
+    ROWS(assert_false, (has_too_few(1, 1, 0)), (has_too_few(999, 1, 0)), (has_too_few(1000, 1, 0)));
+    assert_true(has_too_few(1001, 1, 0));
+    assert_false(has_too_few(2000, 2, 0));
+    assert_true(has_too_few(2001, 2, 0));
+    assert_false(has_too_few(1001, 1, 1)); /* one may still read_share */
+    assert_false(has_too_few(10, 0, 1));
 }
 
 /* The limit is a share of .05; the interval must lie on one side of it. */

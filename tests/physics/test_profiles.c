@@ -66,7 +66,7 @@ static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_sce
 static struct ceduo_arrivals arrivals(const struct ceduo_scene *scene)
 {
     LOCAL(ceduo_run, run) = run_option(scene, NULL, ROCKS, 1);
-    return arrivals_of(run, 0);
+    return read_arrivals(run, 0);
 }
 
 TEST(a_cut_slope_gives_the_same_trajectories_and_statistics)
@@ -257,7 +257,7 @@ TEST(flights_along_teeth_have_the_same_contacts_with_blocks)
 
 /* ---- rolls over many segments ---- */
 
-static void nobody_minds(void *context, const struct ceduo_trajectory_segment *piece)
+static void ignore_segment(void *context, const struct ceduo_trajectory_segment *piece)
 {
     (void)context;
     (void)piece;
@@ -279,7 +279,7 @@ TEST(a_callback_does_not_change_rolls)
             for (uint64_t rock = 0; rock < 100; rock++) {
                 struct ceduo_trajectory v, w;
                 struct ceduo_crossing c, d;
-                struct ceduo_trajectory_callbacks watch = {.piece = nobody_minds};
+                struct ceduo_trajectory_callbacks watch = {.piece = ignore_segment};
                 assert_int_equal(ceduo_tracer_run(f, rock, NULL, &v, &c), CEDUO_OK);
                 assert_int_equal(ceduo_tracer_run(f, rock, &watch, &w, &d), CEDUO_OK);
                 same += v.end == w.end && v.contacts == w.contacts && v.x == w.x && v.z == w.z && c.reached == d.reached &&

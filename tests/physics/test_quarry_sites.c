@@ -18,7 +18,7 @@
 #define TRUE_SITES    FULL_OR(400u, 200u)
 
 /* Return how many of n successes to require if each has probability p. */
-static unsigned fewest(unsigned n, double p)
+static unsigned required_successes(unsigned n, double p)
 {
     unsigned k = 0;
     while (gsl_cdf_binomial_P(k, p, n) < NOINLINE_COLD)
@@ -45,7 +45,8 @@ TEST(ranges_hold_the_truth)
         fits++;
         ceduo_calibration_free(&a);
     }
-    ROWS(EXPECT, (fits, >=, SITES - 2), (held, >=, fewest(VALUES * fits, 0.95)), (likely, >=, fewest(2 * fits, 0.95)));
+    ROWS(EXPECT, (fits, >=, SITES - 2), (held, >=, required_successes(VALUES * fits, 0.95)),
+         (likely, >=, required_successes(2 * fits, 0.95)));
     EXPECT(narrow, >=, fits); /* 30 rocks do identify Rt; ranges as wide as the bounds would contain everything */
 }
 
@@ -69,11 +70,11 @@ TEST(observations_by_another_law_are_detected)
         ceduo_calibration_free(&a);
     }
     EXPECT(fits, >=, SITES / 2 - 2);
-    EXPECT(flagged, >=, fewest(fits, 0.9));
+    EXPECT(flagged, >=, required_successes(fits, 0.9));
 }
 
 /* Kolmogorov's distance from the uniform law times the root of n: above 2.23 with probability 1e-4. */
-static double far_from_uniform(double *p, size_t n)
+static double uniform_distance(double *p, size_t n)
 {
     double most = 0;
     gsl_sort(p, 1, n);
@@ -97,5 +98,5 @@ TEST(on_the_true_ground_p_is_uniform)
     }
     EXPECT(n, >=, TRUE_SITES / 2);
     for (size_t k = 0; k < QUARRY_KINDS; k++)
-        EXPECT(far_from_uniform(p[k], n), <, 2.23);
+        EXPECT(uniform_distance(p[k], n), <, 2.23);
 }

@@ -103,7 +103,7 @@ TEST(a_run_of_rolling_rocks_has_the_speed_of_the_closed_form)
         scene.control = (struct ceduo_control){.x = 1 + 200 * cos(b), .accepted = NAN, .measured_speed = NAN};
         scene.scene.controls_count = 1;
         LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, 100, 1);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
+        struct ceduo_arrivals a = read_arrivals(run, 0);
         double speed = sqrt(2 * G * 200 * (sin(b) - FRICTION * cos(b)) / (1 + k));
         EXPECT(a.reached, ==, 100);
         ROWS(EXPECT_NEAR, (a.speed.mean, speed, 1e-11 * speed), (a.speed.max, speed, 1e-11 * speed), (a.height.max, 0, 1e-12));
@@ -166,7 +166,7 @@ struct arrival {
 };
 
 /* Compute the mean speed of rocks at some lengths along a plane, released 2 m above it. */
-static void fly(double angle, double roughness, const double *length, size_t count, struct arrival *to)
+static void simulate(double angle, double roughness, const double *length, size_t count, struct arrival *to)
 {
     struct ceduo_control controls[4];
     scene.segments[0].roughness_m = roughness;
@@ -177,7 +177,7 @@ static void fly(double angle, double roughness, const double *length, size_t cou
     scene.scene.controls_count = count;
     LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, ROCKS, 2);
     for (size_t i = 0; i < count; i++) {
-        struct ceduo_arrivals a = arrivals_of(run, i);
+        struct ceduo_arrivals a = read_arrivals(run, i);
         to[i] = (struct arrival){.speed = a.speed.mean, .share = a.reach.mean};
     }
 }
@@ -201,7 +201,7 @@ static void measure(double degrees, enum ceduo_law law, bool friction_bound, dou
             struct arrival a;
             plane(radians(degrees), foot + 20, sizes[i], law, talus);
             scene.scene.simulation.friction_bound = friction_bound;
-            fly(radians(degrees), roughness(j), &foot, 1, &a);
+            simulate(radians(degrees), roughness(j), &foot, 1, &a);
             EXPECT(a.share, ==, 1);
             speed[i][j] = a.speed;
         }
@@ -218,7 +218,7 @@ struct worst {
     double rise, factor, slower;
 };
 
-static struct worst worst_of(double speed[][ROUGH])
+static struct worst find_worst(double speed[][ROUGH])
 {
     struct worst w = {0};
     for (size_t i = 0; i < LENGTH(sizes); i++)
@@ -251,7 +251,7 @@ TEST(speed_depends_smoothly_on_roughness_and_size)
     for (size_t d = 0; d < LENGTH(degrees); d++) {
         double speed[LENGTH(sizes)][ROUGH];
         measure(degrees[d], CEDUO_LAW_CRSP, true, speed);
-        struct worst w = worst_of(speed);
+        struct worst w = find_worst(speed);
         note("crsp", degrees[d], w);
         ROWS(EXPECT, (w.rise, <=, RISE_MAX), (w.factor, <=, FACTOR_MAX), (w.slower, <=, 1 / SLOWER_MAX));
     }
@@ -262,7 +262,7 @@ TEST(the_published_law_violates_smoothness)
 {
     double speed[LENGTH(sizes)][ROUGH];
     measure(40, CEDUO_LAW_CRSP, false, speed);
-    struct worst w = worst_of(speed);
+    struct worst w = find_worst(speed);
     note("crsp as published", 40, w);
     ROWS(EXPECT, (w.rise, >, 4), (w.factor, >, 4), (w.slower, >, 4));
 }
@@ -278,7 +278,7 @@ TEST(speed_is_terminal_if_facets_and_friction_hold_the_slope)
             struct arrival a[2];
             double s = sizes[i] * tan(largest + radians(2 + 4 * step));
             plane(b, 3010, sizes[i], CEDUO_LAW_CRSP, talus);
-            fly(b, s, lengths, 2, a);
+            simulate(b, s, lengths, 2, a);
             ROWS(EXPECT, (a[0].share, ==, 1), (a[1].share, ==, 1));
             EXPECT_NEAR(a[1].speed / a[0].speed, 1, .10);
         }

@@ -42,7 +42,7 @@ static int fresh(void **state)
     return 0;
 }
 
-static struct ceduo_grown_stand at(double first_cut, unsigned year)
+static struct ceduo_grown_stand grow_stand(double first_cut, unsigned year)
 {
     struct ceduo_grown_stand grown;
     assert_int_equal(ceduo_stand_at(&s.stand, first_cut, year, &grown), CEDUO_OK);
@@ -74,7 +74,7 @@ static void expect_same_stand(const struct ceduo_stand *a, const struct ceduo_st
 TEST_WITH(year_0_is_the_stand_of_the_file, fresh, NULL)
 {
     s.stand.growth.sdi_most = 1; /* a measured stand is not thinned */
-    struct ceduo_grown_stand grown = at(3, 0);
+    struct ceduo_grown_stand grown = grow_stand(3, 0);
     expect_same_stand(&grown.stand, &s.stand);
     EXPECT(grown.stand.growth.sdi_most, ==, 0);
     EXPECT(grown.stand.cutting.rotation, ==, 0);
@@ -84,7 +84,7 @@ TEST_WITH(year_0_is_the_stand_of_the_file, fresh, NULL)
     memset(&s.stand.growth, 0, sizeof s.stand.growth); /* NaN: for ever */
     assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER);
     for (unsigned year = 0; year < 60; year += 3) {
-        grown = at(3, year);
+        grown = grow_stand(3, year);
         expect_same_stand(&grown.stand, &s.stand);
         ceduo_grown_stand_release(&grown);
     }
@@ -97,7 +97,7 @@ TEST_WITH(an_inventory_grows_along_its_curves, fresh, NULL)
     s.stand.growth.sdi_most = 0;
     double a = -log(1 - 5. / 16) / .022, b = -log(1 - 20. / 45) / .014;
     for (unsigned t = 1; t < 200; t += 7) {
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, t);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, t);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
         double d = .16 * (1 - exp(-.022 * (a + t))), h = 6 * (1 - exp(-.035 * (a + t))) / (1 - exp(-.035 * a));
         ROWS(expect_relative, (shoot->dbh, d, 1e-13), (shoot->height, h, 1e-13), (shoot->dbh_sd, .01 * d / .05, 1e-13),
@@ -117,7 +117,7 @@ TEST_WITH(a_given_age_overrides_the_curve, fresh, NULL)
     s.shoots[0].age = 8;
     s.trees[0].age = 70;
     s.stand.growth.sdi_most = 0;
-    struct ceduo_grown_stand grown = at(INFINITY, 10);
+    struct ceduo_grown_stand grown = grow_stand(INFINITY, 10);
     ROWS(expect_relative, (grown.stand.shoots[0].dbh, .05 * (1 - exp(-.022 * 18)) / (1 - exp(-.022 * 8)), 1e-14),
          (grown.stand.shoots[0].per_ha, 7500 * (3 + 13 * exp(-18. / 5)) / (3 + 13 * exp(-8. / 5)), 1e-14),
          (grown.stand.trees[0].dbh, .2 * (1 - exp(-.014 * 80)) / (1 - exp(-.014 * 70)), 1e-14));
@@ -126,7 +126,7 @@ TEST_WITH(a_given_age_overrides_the_curve, fresh, NULL)
     ceduo_grown_stand_release(&grown);
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 17);
     s.shoots[0].age = 0; /* no stem has a diameter at age 0: ignored */
-    grown = at(INFINITY, 10);
+    grown = grow_stand(INFINITY, 10);
     expect_relative(grown.stand.shoots[0].dbh, .16 * (1 - 11. / 16 * exp(-.22)), 1e-14);
     ceduo_grown_stand_release(&grown);
 }
@@ -138,11 +138,11 @@ TEST_WITH(no_old_shoots, fresh, NULL)
     s.stand.growth.shoots_old = 0;
     s.stand.stools_per_ha = 1;
     assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER); /* nothing would sprout */
-    struct ceduo_grown_stand grown = at(3, 10);
+    struct ceduo_grown_stand grown = grow_stand(3, 10);
     expect_relative(grown.stand.shoots[0].per_ha, 7500 * exp(-2), 1e-13);
     ceduo_grown_stand_release(&grown);
     s.stand.growth.shoots_young = 0;
-    grown = at(3, 10);
+    grown = grow_stand(3, 10);
     EXPECT(grown.stand.shoots[0].per_ha, ==, 7500);
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
     ceduo_grown_stand_release(&grown);
@@ -154,7 +154,7 @@ TEST_WITH(each_stool_keeps_a_shoot_for_ages, fresh, NULL)
     s.stand.growth.shoots_old = 0;
     s.stand.growth.sdi_most = 0;
     for (unsigned t = 3400; t < 4000; t += 5) {
-        struct ceduo_grown_stand grown = at(INFINITY, t);
+        struct ceduo_grown_stand grown = grow_stand(INFINITY, t);
         expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-13);
         ceduo_grown_stand_release(&grown);
     }
@@ -170,7 +170,7 @@ TEST(a_tiny_stem_grows_like_a_new_one)
         s.shoots[0].age = s.trees[0].age = given[i][1];
         s.shoots[0].volume = s.trees[0].volume = 1;
         s.stand.growth.sdi_most = 0;
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, 10);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, 10);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
         ROWS(expect_relative, (shoot->dbh, .16 * (1 - exp(-.22)), 1e-13), (shoot->height, 14 * (1 - exp(-.35)), 1e-13),
              (tree->dbh, .45 * (1 - exp(-.14)), 1e-13), (tree->height, 20 * (1 - exp(-.3)), 1e-13));
@@ -198,7 +198,7 @@ TEST_WITH(a_stem_thicker_than_its_curve_stops_growing, fresh, NULL)
     s.shoots[0] = paper_stems(4000, .16, 9);
     s.trees[0] = paper_stems(60, .60, 18);
     s.stand.growth.sdi_most = 0;
-    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, 40);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, 40);
     expect_same_stand(&grown.stand, &s.stand);
 }
 
@@ -206,7 +206,7 @@ TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
 {
     s.stand.growth.trees.height_rate = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER); /* the retained class has no size */
-    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(5, 30);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(5, 30);
     expect_same_stems(grown.stand.trees, s.trees, 1);
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
     s.stand.cutting.stay_count = 0;
@@ -216,7 +216,7 @@ TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
     for (size_t i = 0; i < LENGTH(numbers); i++) {
         double was = *numbers[i];
         *numbers[i] = 0;
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand as_filed = at(5, 3);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand as_filed = grow_stand(5, 3);
         expect_same_stems(as_filed.stand.shoots, s.shoots, 1);
         assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER);
         *numbers[i] = was;
@@ -231,7 +231,7 @@ TEST_WITH(never_less_than_one_shoot_a_stool, fresh, NULL)
     s.stand.growth.sdi_most = 0;
     bool reached = false;
     for (unsigned t = 1; t < 60; t++) {
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, t);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, t);
         double sum = ceduo_stand_shoots(&grown.stand);
         EXPECT(sum, >=, 2500);
         EXPECT(grown.stand.stools_per_ha, ==, 2500);
@@ -293,7 +293,7 @@ TEST_WITH(a_simple_coppice_after_its_cuts, fresh, NULL)
 {
     s.stand.growth.sdi_most = 0;
     for (unsigned tau = 0; tau < 25; tau++) {
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(4, 4 + tau);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(4, 4 + tau);
         const struct ceduo_stand *g = &grown.stand;
         assert_int_equal(g->trees_count, 2);
         for (unsigned j = 0; j < 2; j++) {
@@ -322,7 +322,7 @@ TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
     s.stand.growth.shoots_old = 6;
     s.stand.growth.sdi_most = 0;
     for (unsigned year = 0; year < 100; year++) {
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, year);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(0, year);
         const struct ceduo_stand *g = &grown.stand;
         unsigned tau = year % 13, missing = tau == 0;
         EXPECT_IS(*g, (shoots_count, 3 - missing), (stools_per_ha, 2500));
@@ -335,14 +335,14 @@ TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
         EXPECT(g->trees[0].age, ==, 26 + tau);
     }
     s.stand.growth.shoots_young = s.stand.growth.shoots_old = 1; /* two of three cohorts: less than one per stool */
-    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, 13);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(0, 13);
     expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-14);
     EXPECT(ceduo_stand_shoots(&grown.stand), >=, 2500);
 }
 
 TEST_WITH(a_cut_in_year_0_is_past, fresh, NULL)
 {
-    struct ceduo_grown_stand now = at(0, 0), later = at(0, 25), rhythm = at(-50, 0);
+    struct ceduo_grown_stand now = grow_stand(0, 0), later = grow_stand(0, 25), rhythm = grow_stand(-50, 0);
     EXPECT_IS(now.stand, (shoots_count, 0), (stools_per_ha, 0), (trees_count, 2));
     expect_same_stand(&now.stand, &later.stand);
     expect_same_stand(&now.stand, &rhythm.stand);
@@ -350,7 +350,7 @@ TEST_WITH(a_cut_in_year_0_is_past, fresh, NULL)
     ceduo_grown_stand_release(&later);
     ceduo_grown_stand_release(&rhythm);
     s.stand.cutting.stay_count = 0; /* no tree is retained */
-    now = at(0, 0);
+    now = grow_stand(0, 0);
     assert_true(ceduo_stand_is_bare(&now.stand));
     assert_false(now.stems);
     EXPECT(ceduo_stems_sdi(now.stand.trees, now.stand.trees_count), ==, 0);
@@ -359,9 +359,9 @@ TEST_WITH(a_cut_in_year_0_is_past, fresh, NULL)
 
 TEST_WITH(a_stand_without_cuts_grows_for_ever, fresh, NULL)
 {
-    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand infinite = at(INFINITY, 1000);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand infinite = grow_stand(INFINITY, 1000);
     s.stand.cutting.rotation = 0;
-    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand never = at(3, 1000);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand never = grow_stand(3, 1000);
     expect_same_stand(&never.stand, &infinite.stand);
     expect_relative(never.stand.shoots[0].dbh, .16, 1e-6);
     expect_relative(never.stand.trees[0].dbh, .45, 1e-6);
@@ -403,7 +403,7 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     s.stand.growth.sdi_most = 250;
     unsigned thinned = 0, died = 0;
     for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index is proportional to the number */
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, tau);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(0, tau);
         double n = 2500 * (3 + 13 * exp(-.2 * tau)), dbh = 16 * (1 - exp(-.022 * tau));
         double most = 250 * pow(25.4 / dbh, 1.605);
         expect_relative(ceduo_stand_shoots(&grown.stand), fmin(n, most), 1e-12);
@@ -418,7 +418,7 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     init();
     s.stand.growth.sdi_most = 600; /* the trees use their part of it */
     s.stand.growth.trees_sdi_most = 400;
-    struct ceduo_grown_stand grown = at(0, 24);
+    struct ceduo_grown_stand grown = grow_stand(0, 24);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
     EXPECT(grown.stand.trees[1].per_ha, ==, 30);
     double trees = index_by_hand(grown.stand.trees, 2);
@@ -426,7 +426,7 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     expect_relative(index_by_hand(grown.stand.shoots, grown.stand.shoots_count), 600 * (1 - trees / 400), 1e-12);
     ceduo_grown_stand_release(&grown);
     s.stand.growth.trees_sdi_most = trees / 2; /* the trees alone exceed it */
-    grown = at(0, 24);
+    grown = grow_stand(0, 24);
     EXPECT(ceduo_stand_shoots(&grown.stand), ==, 0);
     EXPECT(grown.stand.stools_per_ha, ==, 0);
     EXPECT(grown.stand.shoots_count, ==, 0);
@@ -486,7 +486,7 @@ TEST(no_stand_gains_stems_by_growing)
         random_stand();
         double first_cut = uniform(-60, 60), before = INFINITY;
         for (unsigned year = 0; year < YEARS; year++) {
-            LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(first_cut, year);
+            LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(first_cut, year);
             double shoots = ceduo_stand_shoots(&grown.stand), sum = shoots + ceduo_stand_trees(&grown.stand);
             bool sprouts = year == 1 && ceduo_stand_sprouts(&s.stand);
             if (sum > before * (1 + 1e-12) && !sprouts && !has_new_shoots(&s.stand, first_cut, year))
@@ -508,7 +508,7 @@ TEST(no_computed_stand_is_too_dense)
         random_stand();
         const struct ceduo_growth *g = &s.stand.growth;
         for (unsigned year = 1; g->sdi_most > 0 && year < YEARS; year += 4) {
-            LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(NAN, year);
+            LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(NAN, year);
             double all = g->trees_sdi_most > 0 ? g->trees_sdi_most : .35 * g->sdi_most;
             double most = g->sdi_most * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
             double sdi = index_by_hand(grown.stand.shoots, grown.stand.shoots_count), shoots = ceduo_stand_shoots(&grown.stand);
@@ -536,7 +536,7 @@ TEST(the_stand_repeats_after_a_rotation)
             continue;
         unsigned year = first + (unsigned)uniform(0, 60);
         LOCAL_BY(ceduo_grown_stand_release)
-        struct ceduo_grown_stand now = at(given, year), later = at(given, year + 3 * rotation);
+        struct ceduo_grown_stand now = grow_stand(given, year), later = grow_stand(given, year + 3 * rotation);
         expect_same_stand(&now.stand, &later.stand);
     }
 }
@@ -550,7 +550,7 @@ static double adc_just_cut(const char *name, double stools, struct ceduo_cutting
     s.stand.cutting = cutting;
     s.stand.spacing = spacing;
     s.stand.growth.shoots_old = old;
-    struct ceduo_grown_stand grown = at(0, 0);
+    struct ceduo_grown_stand grown = grow_stand(0, 0);
     struct ceduo_adc adc = ceduo_adc(&grown.stand, B);
     double value = ceduo_adc_value(&adc, ceduo_adc_rule(&grown.stand, B, CEDUO_RULE_AUTO));
     print_message("%s, just cut: ADC %.4f m\n", name, value);

@@ -125,7 +125,7 @@ static struct ceduo_arrivals arrive(const struct ceduo_scene *s, int mode, doubl
     enum ceduo_status done = made == CEDUO_OK ? ceduo_run_extend(run, ROCKS) : made;
     assert_int_equal(fesetround(FE_TONEAREST), 0);
     assert_int_equal(done, CEDUO_OK);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     *contacts = (double)ceduo_run_contacts(run) / ROCKS;
     ceduo_run_free(run);
     return a;

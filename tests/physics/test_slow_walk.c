@@ -2,7 +2,7 @@
 /* The program's walk and the slow one, rock by rock, with the same facet draws.
  *
  * Trajectories are chaotic: a rounding error grows from contact to contact, and a decision on the knife's edge changes the
- * rest. A difference is therefore excused only in three cases: - the slow walk with start, rock and draws changed by 1e-13 of
+ * rest. A difference is therefore is_excused only in three cases: - the slow walk with start, rock and draws changed by 1e-13 of
  * their size differs from itself equally at the same contact; - the rock's energy was below the rounding of its height, so that
  * a double cannot tell if it passes the next vertex; - rounding alone decides the direction of a roll (Rt = 0 leaves no speed
  * along the ground). Few rocks may need an excuse. */
@@ -19,7 +19,7 @@
 #define CONTACTS   3000 /* compared per trajectory; a longer one is cut off */
 #define SAME       1e-6 /* relative difference that counts as equal */
 #define SAME_FIRST 1e-9 /* the same at the first contact */
-#define OTHERS     24   /* perturbed slow walks */
+#define PERTURBED  24   /* perturbed slow walks */
 #define CHANGE     1e-13
 #define STILL      1e-14 /* in units of g × length: less energy than this per kilogram vanishes in the rounding of the height */
 
@@ -156,7 +156,7 @@ static double larger(double a, double b)
 }
 
 /* Compare the speed with which the contact that left with b begins a roll, with that of the roll a. */
-static double roll_apart(const struct state *a, const struct state *b, const struct sizes *s)
+static double roll_distance(const struct state *a, const struct state *b, const struct sizes *s)
 {
     double u = hypot(a->v[2], a->v[3]);
     if (!(u > 0))
@@ -167,11 +167,11 @@ static double roll_apart(const struct state *a, const struct state *b, const str
 }
 
 /* Return the distance of two states relative to their sizes; only the first may be a roll. */
-static double apart(const struct state *a, const struct state *b, const struct sizes *s)
+static double distance(const struct state *a, const struct state *b, const struct sizes *s)
 {
     double d = larger(fabs(a->v[0] - b->v[0]), fabs(a->v[1] - b->v[1])) / s->length;
     if (a->rolls)
-        return larger(d, roll_apart(a, b, s) / s->speed);
+        return larger(d, roll_distance(a, b, s) / s->speed);
     for (int i = 2; i < 4; i++)
         d = larger(d, fabs(a->v[i] - b->v[i]) / s->speed);
     return larger(d, fabs(a->v[4] - b->v[4]) * s->radius / s->speed);
@@ -179,12 +179,12 @@ static double apart(const struct state *a, const struct state *b, const struct s
 
 /* Return the contact at which two traces differ by more than `limit`, and set the distance; contacts + 1 means the end and the
  * control; 0: they agree. A contact of only one of them is an infinite distance. */
-static uint64_t part(const struct trace *a, const struct trace *b, const struct sizes *s, double limit, double *by)
+static uint64_t find_difference(const struct trace *a, const struct trace *b, const struct sizes *s, double limit, double *by)
 {
     uint64_t n = a->contacts < b->contacts ? a->contacts : b->contacts;
     n = n < CONTACTS ? n : CONTACTS;
     for (uint64_t i = 1; i <= n; i++) {
-        *by = a->after[i].known && b->after[i].known ? apart(&a->after[i], &b->after[i], s) : 0;
+        *by = a->after[i].known && b->after[i].known ? distance(&a->after[i], &b->after[i], s) : 0;
         if (!(*by <= limit))
             return i;
     }
@@ -203,13 +203,13 @@ static uint64_t part(const struct trace *a, const struct trace *b, const struct 
 }
 
 /* True if perturbations of rounding size make the slow walk differ from itself by the same distance, no later. */
-static bool excused(const struct ceduo_scene *scene, uint64_t rock, const struct sizes *s, uint64_t at, double by)
+static bool is_excused(const struct ceduo_scene *scene, uint64_t rock, const struct sizes *s, uint64_t at, double by)
 {
     struct line_random r = {.state = rock + 99};
-    for (int i = 0; i < OTHERS; i++) {
+    for (int i = 0; i < PERTURBED; i++) {
         double d;
         trace_slow(scene, rock, &r, &changed);
-        uint64_t parted = part(&slow, &changed, s, fmin(by / 10, 1e-3), &d);
+        uint64_t parted = find_difference(&slow, &changed, s, fmin(by / 10, 1e-3), &d);
         if (parted != 0 && parted <= at)
             return true;
     }
@@ -226,7 +226,7 @@ static const struct state *last_before(uint64_t at)
 }
 
 /* True if the rock had hardly any energy left there. */
-static bool still(const struct ceduo_scene *scene, const struct sizes *s, uint64_t at)
+static bool is_still(const struct ceduo_scene *scene, const struct sizes *s, uint64_t at)
 {
     const struct state *last = last_before(at);
     if (!last)
@@ -236,7 +236,7 @@ static bool still(const struct ceduo_scene *scene, const struct sizes *s, uint64
 }
 
 /* True if the rock left along the normal of the ground, so that its roll begins at speed 0. */
-static bool aimless(const struct ceduo_scene *scene, uint64_t at)
+static bool is_aimless(const struct ceduo_scene *scene, uint64_t at)
 {
     const struct state *last = last_before(at);
     if (!last || last->v[4] != 0)
@@ -248,7 +248,7 @@ static bool aimless(const struct ceduo_scene *scene, uint64_t at)
     return fabs(along) <= 1e-15 * hypot(last->v[2], last->v[3]);
 }
 
-static struct sizes sizes_of(const struct ceduo_scene *scene)
+static struct sizes read_sizes(const struct ceduo_scene *scene)
 {
     const struct ceduo_slope *p = &scene->slope;
     struct ceduo_rock body;
@@ -274,15 +274,15 @@ struct tally {
 
 static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally *tally)
 {
-    struct sizes s = sizes_of(scene);
+    struct sizes s = read_sizes(scene);
     double by;
     trace_fast(scene, rock, &fast);
     trace_slow(scene, rock, NULL, &slow);
     tally->rocks++;
     tally->contacts += slow.contacts;
     tally->cut_short += slow.end < 0;
-    uint64_t at = part(&fast, &slow, &s, SAME, &by);
-    if (at == 0 && fast.after[1].known && slow.after[1].known && apart(&fast.after[1], &slow.after[1], &s) > SAME_FIRST) {
+    uint64_t at = find_difference(&fast, &slow, &s, SAME, &by);
+    if (at == 0 && fast.after[1].known && slow.after[1].known && distance(&fast.after[1], &slow.after[1], &s) > SAME_FIRST) {
         at = 1;
         by = SAME_FIRST;
     }
@@ -291,15 +291,15 @@ static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally
         return;
     }
     tally->first_apart += at == 1;
-    if (still(scene, &s, at)) {
+    if (is_still(scene, &s, at)) {
         tally->still++;
         return;
     }
-    if (aimless(scene, at)) {
+    if (is_aimless(scene, at)) {
         tally->aimless++;
         return;
     }
-    if (!excused(scene, rock, &s, at, by))
+    if (!is_excused(scene, rock, &s, at, by))
         fail_msg("seed %ju rock %ju: parts at contact %ju of %ju and %ju by %g", (uintmax_t)scene->simulation.seed,
                  (uintmax_t)rock, (uintmax_t)at, (uintmax_t)fast.contacts, (uintmax_t)slow.contacts, by);
     tally->excused++;

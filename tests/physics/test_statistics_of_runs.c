@@ -23,7 +23,7 @@ static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, un
     scene->simulation.rocks = rocks;
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.threads = threads;
-    return run_of(&def, rocks);
+    return make_run(&def, rocks);
 }
 
 /* Expect agreement within four combined standard errors plus half of the last printed digit. */
@@ -70,7 +70,7 @@ TEST(means_of_the_combinations_beside_table_5)
         const struct combination *c = &combinations[i];
         choose(c);
         LOCAL(ceduo_run, run) = run_scene(&site.scene, c->rocks, 2);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
+        struct ceduo_arrivals a = read_arrivals(run, 0);
         double p = a.reach.mean, n = (double)c->rocks;
         ROWS(expect_mean, ("mean speed", a.speed.mean, a.speed.se, c->speed, c->speed_se, c->speed_digit),
              ("mean energy", a.energy.mean / 1e3, a.energy.se / 1e3, c->energy, c->energy_se, c->energy_digit),
@@ -85,7 +85,7 @@ TEST(hardly_any_rock_passes_crsp_with_facets_to_both_sides)
 {
     choose(&(struct combination){.law = CEDUO_LAW_CRSP, .facets = CEDUO_BOTH, .theta = PAPER_ANGLE});
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 20000, 2);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT(a.reached, <=, 3); /* 1 in 10^5: more than 3 of 20 000 has probability 6e-5 */
     EXPECT(a.reach.lo, <=, 1e-5);
     EXPECT(a.reach.hi, >=, 1e-5);
@@ -95,7 +95,7 @@ TEST(figures_of_an_arrival_are_consistent)
 {
     choose(&combinations[3]);
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 5000, 2);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     static double energies[5000];
     size_t n = ceduo_run_energies(run, 0, energies, LENGTH(energies)), exceeded = 0;
     assert_int_equal(n, a.reached);
@@ -124,7 +124,7 @@ TEST(figures_of_an_arrival_are_consistent)
     uint64_t reached;
     struct ceduo_estimate mean = ceduo_run_energy(run, 0, &reached);
     ROWS(EXPECT, (reached, ==, a.reached), (mean.mean, ==, a.energy.mean), (mean.se, ==, a.energy.se));
-    struct ceduo_ends ends = ends_of(run);
+    struct ceduo_ends ends = read_ends(run);
     assert_int_equal(ends.count[CEDUO_AT_REST] + ends.count[CEDUO_LEFT_SLOPE] + ends.count[CEDUO_UNFINISHED], 5000);
     assert_int_equal(ends.stop_x.n, ends.count[CEDUO_AT_REST]);
     ROWS(EXPECT, (ends.stop_p50, <=, ends.stop_p95), (ends.stop_p95, <=, ends.stop_max), (ends.stop_max, ==, ends.stop_x.max));
@@ -154,7 +154,7 @@ TEST(a_run_stops_at_the_requested_length)
     choose(&combinations[0]);
     site.scene.simulation.rocks = 500;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    LOCAL(ceduo_run, run) = run_of(&def, 300);
+    LOCAL(ceduo_run, run) = make_run(&def, 300);
     assert_int_equal(ceduo_run_extend(run, 100), CEDUO_OK); /* nothing to do */
     assert_int_equal(ceduo_run_rocks(run), 300);
     assert_int_equal(ceduo_run_extend(run, 9999), CEDUO_OK);
@@ -166,10 +166,10 @@ TEST(other_seeds_give_other_rocks)
 {
     choose(&combinations[0]);
     LOCAL(ceduo_run, one) = run_scene(&site.scene, 50000, 2);
-    struct ceduo_arrivals a = arrivals_of(one, 0);
+    struct ceduo_arrivals a = read_arrivals(one, 0);
     site.scene.simulation.seed = 2;
     LOCAL(ceduo_run, two) = run_scene(&site.scene, 50000, 2);
-    struct ceduo_arrivals b = arrivals_of(two, 0);
+    struct ceduo_arrivals b = read_arrivals(two, 0);
     EXPECT(a.speed.mean, !=, b.speed.mean);
     expect_mean("mean speed", a.speed.mean, a.speed.se, b.speed.mean, b.speed.se, 0);
 }
@@ -177,7 +177,7 @@ TEST(other_seeds_give_other_rocks)
 /* ---- envelopes ---- */
 
 /* Return the value of rank p in a sorted sample as textbooks define it: the smallest value that at most a share p is below. */
-static double rank_of(const double *values, size_t n, double p)
+static double value_of_rank(const double *values, size_t n, double p)
 {
     double sorted[CEDUO_ENVELOPE_ROCKS];
     memcpy(sorted, values, n * sizeof *sorted);
@@ -190,8 +190,8 @@ static double rank_of(const double *values, size_t n, double p)
 
 static void expect_spread(const struct ceduo_cell_quantiles *s, const double *values, size_t n)
 {
-    EXPECT_IS(*s, (p5, rank_of(values, n, .05)), (p50, rank_of(values, n, .5)), (p95, rank_of(values, n, .95)),
-              (max, rank_of(values, n, 1)));
+    EXPECT_IS(*s, (p5, value_of_rank(values, n, .05)), (p50, value_of_rank(values, n, .5)),
+              (p95, value_of_rank(values, n, .95)), (max, value_of_rank(values, n, 1)));
 }
 
 /* Envelopes at a place equal ranks of a control there: a run stores and sorts the values of each. */
@@ -210,7 +210,7 @@ TEST(envelopes_are_ranks_over_rocks)
         for (size_t i = 0; i < LENGTH(places); i++) {
             site.control.x = places[i];
             struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-            LOCAL(ceduo_run, run) = run_of(&def, rocks[k]);
+            LOCAL(ceduo_run, run) = make_run(&def, rocks[k]);
             const double *height = ceduo_run_samples(run, 0, CEDUO_SAMPLE_HEIGHT);
             const double *energy = ceduo_run_samples(run, 0, CEDUO_SAMPLE_ENERGY);
             size_t n = 0;
@@ -223,8 +223,8 @@ TEST(envelopes_are_ranks_over_rocks)
             if (n == 0)
                 continue;
             expect_spread(&e[i].height, heights, n);
-            EXPECT_NEAR(e[i].energy.p5, rank_of(energies, n, .05), 1e-12 * e[i].energy.p5);
-            EXPECT_NEAR(e[i].energy.p95, rank_of(energies, n, .95), 1e-12 * e[i].energy.p95);
+            EXPECT_NEAR(e[i].energy.p5, value_of_rank(energies, n, .05), 1e-12 * e[i].energy.p5);
+            EXPECT_NEAR(e[i].energy.p95, value_of_rank(energies, n, .95), 1e-12 * e[i].energy.p95);
             EXPECT_NEAR(e[i].mean_energy, gsl_stats_mean(energies, 1, n), 1e-12 * e[i].mean_energy);
         }
     }
@@ -260,12 +260,12 @@ TEST(a_cancelled_run_can_continue)
     assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED);
     uint64_t done = ceduo_run_rocks(run);
     ROWS(EXPECT, (c.calls, >=, 1), (done, >=, c.last), (done, <, 600000));
-    assert_int_equal(arrivals_of(run, 0).released, done);
+    assert_int_equal(read_arrivals(run, 0).released, done);
     assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED); /* flag still set */
     assert_int_equal(ceduo_run_rocks(run), done);
     struct ceduo_run_def plain = ceduo_run_def_default(&site.scene);
     plain.threads = 2;
-    LOCAL(ceduo_run, other) = run_of(&plain, done);
+    LOCAL(ceduo_run, other) = make_run(&plain, done);
     expect_same_run(run, other);
     atomic_store(&c.flag, false);
     assert_int_equal(ceduo_run_extend(run, done + 3000), CEDUO_OK);
@@ -326,7 +326,7 @@ TEST(releases_and_rocks_follow_their_distributions)
     LOCAL(ceduo_run, run) = run_scene(s, 5000, 2);
     LOCAL(ceduo_run, again) = run_scene(s, 5000, 16);
     expect_same_run(run, again);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT(a.reached, >, 4000);
     EXPECT(a.translation.mean, <, a.energy.mean);
 }
@@ -336,7 +336,7 @@ TEST(a_lumped_rock_with_many_masses_has_its_own_energies)
     choose(&combinations[0]);
     site.scene.rock.density = (struct ceduo_number){2600, 300, CEDUO_UNIFORM};
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 50000, 2);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     /* the trajectory does not depend on the mass */
     expect_mean("mean speed", a.speed.mean, a.speed.se, 20.612, .005, .001);
     expect_mean("mean energy", a.energy.mean / 1e3, a.energy.se / 1e3, 114.69, .05, .01);
@@ -350,7 +350,7 @@ struct first_contact {
     bool seen;
 };
 
-static void look_at_first_contact(void *context, const struct ceduo_trajectory_segment *p)
+static void check_first_contact(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct first_contact *f = context;
     if (p->contacts == 0)
@@ -366,7 +366,7 @@ static struct first_contact first_contacts(const struct ceduo_scene *scene)
 {
     struct first_contact f = {0};
     for (uint64_t rock = 0; rock < 20000; rock++) {
-        const struct ceduo_trajectory_callbacks watch = {.piece = look_at_first_contact, .context = &f};
+        const struct ceduo_trajectory_callbacks watch = {.piece = check_first_contact, .context = &f};
         struct ceduo_trajectory w;
         f.seen = false;
         assert_int_equal(ceduo_trajectory_follow(scene, NULL, rock, &watch, &w, NULL), CEDUO_OK);
@@ -424,8 +424,8 @@ TEST(a_control_without_arrivals)
         }
         site.scene.simulation.rocks = 999;
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        LOCAL(ceduo_run, run) = run_of(&def, 999);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
+        LOCAL(ceduo_run, run) = make_run(&def, 999);
+        struct ceduo_arrivals a = read_arrivals(run, 0);
         EXPECT_IS(a, (reached, 0), (reach.mean, 0), (reach.lo, 0));
         ROWS(EXPECT, (a.reach.hi, >, .0038), (a.reach.hi, <, .004), (a.exceed.hi, ==, a.reach.hi));
         ROWS(assert_true, (nothing_known(&a.speed)), (nothing_known(&a.energy)), (nothing_known(&a.translation)),
@@ -445,7 +445,7 @@ TEST(a_control_without_an_accepted_energy)
     choose(&combinations[0]);
     site.control.accepted = NAN;
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 999, 1);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT(a.exceeded, ==, 0);
     EXPECT_NAN(a.exceed.mean, a.exceed.lo, a.exceed.hi);
 }
@@ -459,9 +459,9 @@ TEST(unfinished_rocks_count_for_the_upper_bound)
     flat.control = (struct ceduo_control){.x = 600, .accepted = 1, .measured_speed = NAN};
     flat.scene.controls_count = 1;
     LOCAL(ceduo_run, run) = run_scene(&flat.scene, 5, 2);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT_IS(a, (unfinished, 5), (reached, 0), (reach.hi, 1), (reach.lo, 0), (exceed.hi, 1));
-    struct ceduo_ends ends = ends_of(run);
+    struct ceduo_ends ends = read_ends(run);
     assert_int_equal(ends.count[CEDUO_UNFINISHED], 5);
     EXPECT_NAN(ends.stop_p50, ends.stop_max);
 }
@@ -487,7 +487,7 @@ TEST(unfinished_blocks_count_with_their_weights)
     flat.scene.blocks_count = 1;
     LOCAL(ceduo_run, run) = run_scene(&flat.scene, ROCKS, 2);
     LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&flat.scene, NULL);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
     double all = 0, squares = 0, unfinished = 0;
     for (uint64_t r = 0; r < ROCKS; r++) {

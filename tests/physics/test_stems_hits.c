@@ -137,7 +137,7 @@ TEST(a_hit_scales_speed_and_spin_with_the_remaining_energy)
 }
 
 /* Level ground, dorren's stems and one control. */
-static void cross_at(double x, bool rolls)
+static void set_crossing(double x, bool rolls)
 {
     clear_plane(400);
     plant_dorren(10, 400);
@@ -150,13 +150,13 @@ TEST(a_control_at_a_stem_is_passed_before_the_hit)
 {
     for (uint64_t rock = 0; rock < 400; rock++) {
         bool rolls = rock % 2;
-        cross_at(400, rolls);
+        set_crossing(400, rolls);
         sweep_one(rock);
         for (size_t i = 0; i < sweep.count && i < 4; i++) {
             struct ceduo_stem_encounter stem = sweep.stems[i];
             struct ceduo_trajectory way;
             struct ceduo_crossing c;
-            cross_at(stem.x, rolls);
+            set_crossing(stem.x, rolls);
             assert_int_equal(ceduo_trajectory_follow(&plane.line.scene, &plane.line.option, rock, NULL, &way, &c), CEDUO_OK);
             assert_true(c.reached);
             EXPECT(c.stems_hit, ==, i);
@@ -194,7 +194,7 @@ TEST(rocks_fly_over_stems_that_are_lower)
                          s->height, s->hit);
             hits += s->hit;
         }
-        if (hits != sweep.way.stems_hit || different(false) != sweep.way.stools_met)
+        if (hits != sweep.way.stems_hit || count_different(false) != sweep.way.stools_met)
             fail_msg("rock %ju: stems flown over are counted", (uintmax_t)rock);
         spread_add(&come_to, (double)sweep.count / 400);
         spread_add(&hit, (double)hits);
@@ -283,7 +283,7 @@ static double first_stem_cdf(double x, const void *of)
 static void expect_run_stopped(const struct sample *stops, uint64_t rocks)
 {
     LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, rocks, 2);
-    struct ceduo_ends ends = ends_of(run);
+    struct ceduo_ends ends = read_ends(run);
     ROWS(assert_int_equal, (ends.count[CEDUO_STOPPED_BY_STEMS], stops->n), (ends.count[CEDUO_LEFT_SLOPE], rocks - stops->n),
          (ends.stop_x.n, stops->n));
     double sum = 0;

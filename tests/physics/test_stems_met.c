@@ -220,7 +220,7 @@ struct biased {
     double mean, shape, scale;
 };
 
-static struct biased biased_of(double mean, double sd)
+static struct biased make_biased(double mean, double sd)
 {
     return (struct biased){mean, mean * mean / (sd * sd), sd * sd / mean};
 }
@@ -242,7 +242,7 @@ static double gamma_moment(const struct biased *l, int k)
 
 static void expect_biased(const char *name, double per_ha, double mean, double sd, uint64_t rocks, double metres)
 {
-    struct biased law = biased_of(mean, sd);
+    struct biased law = make_biased(mean, sd);
     struct spread per = {0}, dbh = {0};
     struct sample all = {0};
     for (SWEEP(rock, rocks)) {
@@ -409,7 +409,7 @@ static double ring_reach(const struct ceduo_stand *stand)
     return fmax(ceduo_stool_radius(n, stand->spacing), ceduo_stool_radius(n + 1, stand->spacing));
 }
 
-static const struct planted *planted_as(const struct ceduo_stem_encounter *stem)
+static const struct planted *find_planted(const struct ceduo_stem_encounter *stem)
 {
     size_t k = (size_t)(stem->height - 100);
     assert_true(k < planted_count);
@@ -418,7 +418,7 @@ static const struct planted *planted_as(const struct ceduo_stem_encounter *stem)
 
 static void expect_one_of_those_planted(const struct ceduo_stem_encounter *stem)
 {
-    const struct planted *of = planted_as(stem);
+    const struct planted *of = find_planted(stem);
     assert_int_equal(stem->shoot, of->shoots);
     if ((stem->dbh == of->stems->dbh) != (of->stems->dbh_sd == 0))
         fail_msg("a stem of %g m where %g ± %g m were planted", stem->dbh, of->stems->dbh, of->stems->dbh_sd);
@@ -432,11 +432,11 @@ static void expect_whole_stools(void)
 {
     for (size_t i = 0; i < sweep.count; i++) {
         const struct ceduo_stem_encounter *p = &sweep.stems[i];
-        const struct planted *of = planted_as(p);
+        const struct planted *of = find_planted(p);
         size_t same = 0;
         for (size_t j = 0; j < sweep.count; j++)
             if (sweep.stems[j].stool == p->stool) {
-                assert_ptr_equal(planted_as(&sweep.stems[j])->belt, of->belt);
+                assert_ptr_equal(find_planted(&sweep.stems[j])->belt, of->belt);
                 same++;
             }
         assert_in_range(same, 1, p->shoot ? (size_t)ceil(per_stool(&of->belt->stand)) : 1);

@@ -199,7 +199,7 @@ TEST(stems_around_a_release_do_not_depend_on_the_first_direction)
         expect_each_stem_once();
         size_t n = sweep.count, met = sweep.way.stools_met;
         memcpy(ahead, sweep.stems, n * sizeof *ahead);
-        assert_int_equal(met, different(false));
+        assert_int_equal(met, count_different(false));
         court_of_the_paper(BACK_AND_AHEAD);
         sweep_one(rock);
         expect_each_stem_once();
@@ -221,7 +221,7 @@ TEST(a_stool_at_the_release_stays_one_after_a_long_trajectory)
     clear_court(AHEAD_AND_BACK);
     plant_plot(1, RELEASE - 6, RELEASE + 145);
     for (SWEEP(rock, rocks))
-        wrong += sweep.way.stools_met != different(false);
+        wrong += sweep.way.stools_met != count_different(false);
     if (wrong > 0)
         fail_msg("%ju of %ju rocks count a stool twice", (uintmax_t)wrong, (uintmax_t)rocks);
 }

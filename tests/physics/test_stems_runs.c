@@ -23,8 +23,8 @@ TEST(rocks_on_the_papers_site_arrive_as_in_an_independent_implementation)
     const uint64_t rocks = FULL_OR(300000, 100000);
     paper_site_init(&site);
     LOCAL(ceduo_run, run) = run_option(&site.scene, &site.option, rocks, 2);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
-    struct ceduo_ends e = ends_of(run);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
+    struct ceduo_ends e = read_ends(run);
     double n = (double)rocks, pass = a.reach.mean;
     double stopped = (double)e.count[CEDUO_STOPPED_BY_STEMS] / n;
     expect_close("kJ at 135 m", a.energy.mean / 1e3, a.energy.se / 1e3, other.energy, .1);
@@ -63,7 +63,7 @@ static void open_sides(void)
 }
 
 /* Return the energy of each rock at the control; 0 and `reached` false if it does not arrive. */
-static double energy_of_rock(struct ceduo_tracer *f, uint64_t rock, bool *reached)
+static double simulate_energy(struct ceduo_tracer *f, uint64_t rock, bool *reached)
 {
     struct ceduo_trajectory w;
     struct ceduo_crossing c;
@@ -76,7 +76,7 @@ struct pair_moments {
     struct ceduo_moments reach, exceed, energy;
 };
 
-static struct pair_moments pairs_of(const struct ceduo_option *a, const struct ceduo_option *b, uint64_t rocks)
+static struct pair_moments read_pairs(const struct ceduo_option *a, const struct ceduo_option *b, uint64_t rocks)
 {
     struct pair_moments m = {0};
     struct ceduo_tracer *f = ceduo_tracer_create(&site.scene, a), *g = ceduo_tracer_create(&site.scene, b);
@@ -84,7 +84,7 @@ static struct pair_moments pairs_of(const struct ceduo_option *a, const struct c
     assert_true(g);
     for (uint64_t rock = 0; rock < rocks; rock++) {
         bool p, q;
-        double e = energy_of_rock(f, rock, &p), h = energy_of_rock(g, rock, &q);
+        double e = simulate_energy(f, rock, &p), h = simulate_energy(g, rock, &q);
         ceduo_moments_add(&m.reach, (double)p - (double)q);
         ceduo_moments_add(&m.exceed, (double)(e > site.control.accepted) - (double)(h > site.control.accepted));
         ceduo_moments_add(&m.energy, e - h);
@@ -113,9 +113,9 @@ TEST(differences_have_the_error_of_differences_rock_by_rock)
         LOCAL(ceduo_run, run) = run_option(&site.scene, option, rocks, 2);
         LOCAL(ceduo_run, base) = run_option(&site.scene, &sides.options[0], rocks, 2);
         struct ceduo_difference d = ceduo_run_difference(run, base, 0);
-        struct pair_moments m = pairs_of(option, &sides.options[0], rocks);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
-        struct ceduo_arrivals b = arrivals_of(base, 0);
+        struct pair_moments m = read_pairs(option, &sides.options[0], rocks);
+        struct ceduo_arrivals a = read_arrivals(run, 0);
+        struct ceduo_arrivals b = read_arrivals(base, 0);
         expect_pair("difference of shares that pass", &d.reach, &m.reach, a.reach.mean, b.reach.mean);
         expect_pair("difference of shares above what is accepted", &d.exceed, &m.exceed, a.exceed.mean, b.exceed.mean);
         expect_pair("difference of J per released", &d.energy_per_released, &m.energy, a.energy_per_released.mean,
@@ -154,9 +154,9 @@ TEST(an_aborted_rock_has_reached_earlier_controls)
     for (uint64_t contact = 0; contact < 2; contact++) {
         plane.line.scene.release.vz.mean = contact ? -1e5 : 0;
         LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, ROCKS, 1);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
+        struct ceduo_arrivals a = read_arrivals(run, 0);
         EXPECT_IS(a, (reached, ROCKS), (unfinished, 0));
-        assert_int_equal(ends_of(run).count[CEDUO_UNFINISHED], ROCKS);
+        assert_int_equal(read_ends(run).count[CEDUO_UNFINISHED], ROCKS);
         struct ceduo_trajectory way;
         struct ceduo_crossing c;
         assert_int_equal(ceduo_trajectory_follow(&plane.line.scene, &plane.line.option, 0, NULL, &way, &c), CEDUO_OK);
@@ -182,7 +182,7 @@ TEST(an_aborted_rock_has_reached_the_end_of_its_roll)
     plane.line.scene.controls_count = 1;
     plane.line.control = (struct ceduo_control){.x = (before + sweep.way.x) / 2, .accepted = NAN, .measured_speed = NAN};
     LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, 1, 1);
-    EXPECT_IS(arrivals_of(run, 0), (reached, 1), (unfinished, 0));
+    EXPECT_IS(read_arrivals(run, 0), (reached, 1), (unfinished, 0));
 }
 
 /* The same for blocks of all sizes with their weights. The error of the mean is the residual of a regression on the weights
@@ -253,7 +253,7 @@ TEST(a_longer_run_keeps_its_figures)
     assert_int_equal(ceduo_pool_extend(pool, 600), CEDUO_OK);
     assert_int_equal(ceduo_pool_simulate(pool, &sides.options[1], 1500, &longer), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
-    struct ceduo_arrivals wanted = arrivals_of(alone, 0);
+    struct ceduo_arrivals wanted = read_arrivals(alone, 0);
     ROWS(EXPECT, (result->bare.rocks, ==, 600), (result->options[0].wooded.rocks, ==, 600),
          (result->options[1].wooded.rocks, ==, 1500));
     const struct ceduo_arrivals *a = ceduo_result_wooded(result, 1, 0);

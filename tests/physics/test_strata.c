@@ -208,7 +208,7 @@ TEST(groups_keep_to_their_belt)
         spread_add(&last, (double)b / 2);
         spread_add(&all, (double)sweep.count / 30);
         assert_int_equal(sweep.way.stools_met, sweep.count); /* each tree is single */
-        assert_int_equal(different(false), sweep.count);
+        assert_int_equal(count_different(false), sweep.count);
     }
     ROWS(expect_mean, ("per metre", &all, per_metre(400, B + TREE)),
          ("per metre at the first end", &first, per_metre(400, B + TREE)),

@@ -71,7 +71,7 @@ static struct ceduo_trajectory expect_the_same_again(const struct line_scene *s,
 }
 
 /* True if two trajectories are equal within rounding. */
-static bool are_alike(const struct ceduo_trajectory *a, const struct ceduo_trajectory *b)
+static bool is_close(const struct ceduo_trajectory *a, const struct ceduo_trajectory *b)
 {
     return a->end == b->end && a->contacts == b->contacts && fabs(a->x - b->x) <= 1e-6 * (1 + fabs(b->x));
 }
@@ -106,13 +106,13 @@ static void expect_counts(const struct line_scene *s)
     LOCAL(ceduo_run, run);
     assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
     assert_int_equal(ceduo_run_extend(run, run_rocks), CEDUO_OK);
-    struct ceduo_ends ends = ends_of(run);
+    struct ceduo_ends ends = read_ends(run);
     uint64_t sum = 0, before = run_rocks;
     for (int i = 0; i < CEDUO_ENDS; i++)
         sum += ends.count[i];
     assert_int_equal(sum, run_rocks);
     for (size_t i = 0; i < n; i++) {
-        struct ceduo_arrivals a = arrivals_of(run, i);
+        struct ceduo_arrivals a = read_arrivals(run, i);
         ROWS(EXPECT, (a.released, ==, run_rocks), (a.reached, <=, before), (a.exceeded, <=, a.reached),
              (a.unfinished, <=, ends.count[CEDUO_UNFINISHED]), (a.reached + a.unfinished, <=, run_rocks));
         ROWS(expect_distribution, (&a.speed, a.reached), (&a.energy, a.reached), (&a.height, a.reached));
@@ -134,7 +134,7 @@ TEST(random_scenes)
         if (line_scene_lasts(&scene))
             continue;
         struct ceduo_trajectory unseen = expect_the_same_again(&scene, number % 11);
-        parted += !are_alike(&unseen, &t.last); /* without a callback rolls pass whole segments */
+        parted += !is_close(&unseen, &t.last); /* without a callback rolls pass whole segments */
         if (number % RUN_EVERY == 0)
             expect_counts(&scene);
         if (number % 4 != 0)
@@ -176,7 +176,7 @@ static void release(double x, double height, double vx, double vz)
 }
 
 /* Simulate a release: both laws, facets to either side, smooth and rough, with and without the friction bound. */
-static void look(double from, double height, double vx, double vz)
+static void try_release(double from, double height, double vx, double vz)
 {
     struct invariants_tally t = {0};
     uint64_t number = 0;
@@ -206,11 +206,11 @@ TEST(grazing_contacts)
     for (double v = 1e-3; v < 100; v *= 10) {
         for (double height = 1e-15; height < 1; height *= 1e3) {
             profile(4, x, z, earth, .3);
-            look(1, height, v, -.5 * v);
+            try_release(1, height, v, -.5 * v);
         }
         for (int ulps = -2; ulps <= 2; ulps++) { /* along the ground within the last bits */
             profile(4, x, z, earth, .3);
-            look(1, 0, v, -.5 * v * (1 + ulps * 0x1p-52));
+            try_release(1, 0, v, -.5 * v * (1 + ulps * 0x1p-52));
         }
     }
 }
@@ -221,7 +221,7 @@ TEST(launch_at_a_vertex)
     for (size_t i = 0; i < LENGTH(x) - 1; i++)
         for (int turn = 0; turn < 16; turn++) {
             profile(LENGTH(x), x, z, earth, .3);
-            look(x[i], 0, 4 * cos(turn * M_PI / 8), 4 * sin(turn * M_PI / 8));
+            try_release(x[i], 0, 4 * cos(turn * M_PI / 8), 4 * sin(turn * M_PI / 8));
         }
 }
 
@@ -234,7 +234,7 @@ TEST(flights_through_a_vertex_to_the_last_bit)
             const double x[] = {0, .5, 1, 1.5, 20}, z[] = {4, peak ? 0 : 4 - 1.5, at - 4, -6, -30};
             profile(5, x, z, earth, .05);
             s.scene.simulation.gravity = 8;
-            look(0, 0, 1, 0);
+            try_release(0, 0, 1, 0);
         }
 }
 
@@ -246,9 +246,9 @@ TEST(corners_of_one_degree)
     for (double r = 1e-3; r <= 1; r *= 10)
         for (double v = .5; v < 20; v *= 3) {
             profile(5, notch_x, notch_z, earth, r);
-            look(9, .5, v, 0);
+            try_release(9, .5, v, 0);
             profile(5, peak_x, peak_z, earth, r);
-            look(9, 1, v, 14);
+            try_release(9, 1, v, 14);
         }
 }
 
@@ -258,9 +258,9 @@ TEST(almost_vertical_walls)
         const double x[] = {0, 5, 5 + run, 20, 20 + run, 40}, z[] = {0, -2, -102, -104, -54, -60};
         for (double v = 1e-3; v < 100; v *= 10) {
             profile(6, x, z, earth, .3);
-            look(4, 0, v, 0);
+            try_release(4, 0, v, 0);
             profile(6, x, z, earth, .3);
-            look(19, 30, v, 3);
+            try_release(19, 30, v, 3);
         }
     }
 }
@@ -275,7 +275,7 @@ TEST(slivers)
         }
         for (double v = 1e-3; v < 100; v *= 10) {
             profile(41, x, z, earth, .3);
-            look(.5, .2, v, 0);
+            try_release(.5, .2, v, 0);
         }
     }
 }
@@ -286,9 +286,9 @@ TEST(large_coordinates)
         const double x[] = {0, .3 * size, .31 * size, .9 * size, size};
         const double z[] = {0, -.25 * size, -.24 * size, -.6 * size, -.61 * size};
         profile(5, x, z, earth, .3);
-        look(.299 * size, 1, 5, 0);
+        try_release(.299 * size, 1, 5, 0);
         profile(5, x, z, earth, .3);
-        look(size - 3, 1, -5, 0);
+        try_release(size - 3, 1, -5, 0);
     }
 }
 
@@ -298,7 +298,7 @@ TEST(little_and_much_gravity)
     for (double g = 1e-3; g <= 1e3; g *= 10) {
         profile(5, x, z, earth, .3);
         s.scene.simulation.gravity = g;
-        look(1, 2, 1, 0);
+        try_release(1, 2, 1, 0);
     }
 }
 
@@ -310,7 +310,7 @@ TEST(shares_of_0_and_1)
     for (int rn = 0; rn < 2; rn++)
         for (int rt = 0; rt < 2; rt++) {
             profile(4, x, z, (struct line_ground){rn, rt, .5}, .3);
-            look(1, 2, 1, 0);
+            try_release(1, 2, 1, 0);
         }
     run_rocks = 40;
 }
@@ -320,7 +320,7 @@ TEST(small_and_large_rocks)
     const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
     for (double r = 1e-3; r <= 100; r *= 10) {
         profile(5, x, z, earth, r);
-        look(1, .2, 1, 0);
+        try_release(1, .2, 1, 0);
     }
 }
 
@@ -330,16 +330,16 @@ TEST(slow_and_fast_rocks)
     for (double v = 1e-12; v <= 1e3; v *= 10)
         for (int turn = 0; turn < 8; turn++) {
             profile(5, x, z, earth, .3);
-            look(15, turn & 1 ? .5 : 0, v * cos(turn * M_PI / 4), v * sin(turn * M_PI / 4));
+            try_release(15, turn & 1 ? .5 : 0, v * cos(turn * M_PI / 4), v * sin(turn * M_PI / 4));
         }
     by_design = FE_OVERFLOW | FE_INVALID;
     static const double tiny[] = {0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-150};
     for (size_t i = 0; i < LENGTH(tiny); i++)
         for (int side = -1; side <= 1; side += 2) {
             profile(5, x, z, earth, .3);
-            look(15, .5, side * tiny[i], 0);
+            try_release(15, .5, side * tiny[i], 0);
             profile(5, x, z, earth, .3);
-            look(20, 0, side * tiny[i], 1);
+            try_release(20, 0, side * tiny[i], 1);
         }
     by_design = 0;
 }
@@ -408,9 +408,9 @@ TEST(pits)
                 const double x[] = {0, 5, 5 + width, 5 + width + bottom + 1e-3, 6 + 2 * width + bottom, 40};
                 const double z[] = {0, -1, -1 - depth, -1 - depth, -1, -5};
                 profile(6, x, z, earth, .3);
-                look(4, .1, 2, 0);
+                try_release(4, .1, 2, 0);
                 profile(6, x, z, (struct line_ground){.2, .99, 0}, .3);
-                look(5 + width, 0, 0, 0);
+                try_release(5 + width, 0, 0, 0);
             }
 }
 
@@ -427,7 +427,7 @@ TEST(noise_of_every_size)
                     z[i] = -.7 * x[i] + height * (style ? (double)(i % 2) : line_uniform(&random, -1, 1));
                 }
                 profile(LINE_SEGMENTS_MAX + 1, x, z, earth, radius);
-                look(scale * 3.3, .1, 2, 0);
+                try_release(scale * 3.3, .1, 2, 0);
             }
 }
 

@@ -27,7 +27,7 @@ static int free_scene(void **state)
 }
 
 /* Compute distances and mean stops of the blocks in `observed`. */
-static void look(const struct ceduo_observation *seen, double distance[BLOCKS], double mean[BLOCKS])
+static void compare_blocks(const struct ceduo_observation *seen, double distance[BLOCKS], double mean[BLOCKS])
 {
     struct ceduo_observer *observer;
     assert_int_equal(ceduo_observer_create(seen, BLOCKS, &observer), CEDUO_OK);
@@ -46,10 +46,10 @@ TEST(one_ground_gives_all_three_blocks)
     double distance[BLOCKS], mean[BLOCKS];
     assert_int_equal(file.observations_count, BLOCKS);
     const size_t counts[BLOCKS] = {29, 25, 26}; /* Volkwein and Gerber 2018 */
-    look(file.observations, distance, mean);
+    compare_blocks(file.observations, distance, mean);
     for (size_t b = 0; b < BLOCKS; b++) {
         EXPECT(file.observations[b].n, ==, counts[b]);
-        EXPECT(distance[b], <, stops_band(counts[b]));
+        EXPECT(distance[b], <, stops_limit(counts[b]));
     }
 }
 
@@ -66,8 +66,8 @@ TEST(a_sphere_instead_of_the_plate_goes_too_far)
         rocks[b].diameter = ceduo_number(ceduo_rock_mean(rock).mean_diameter);
         round[b].rock = &rocks[b];
     }
-    look(round, distance, mean);
-    EXPECT(distance[2], >, 2 * stops_band(round[2].n));
+    compare_blocks(round, distance, mean);
+    EXPECT(distance[2], >, 2 * stops_limit(round[2].n));
     EXPECT_NEAR(mean[2], mean[0], 1.5);
 }
 

@@ -74,7 +74,7 @@ static int fresh(void **state)
     return 0;
 }
 
-static struct ceduo_pool *pool_of(unsigned threads, const atomic_bool *cancel)
+static struct ceduo_pool *make_pool(unsigned threads, const atomic_bool *cancel)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
     def.threads = threads;
@@ -85,7 +85,7 @@ static struct ceduo_pool *pool_of(unsigned threads, const atomic_bool *cancel)
     return pool;
 }
 
-static struct ceduo_years *grown(unsigned first, unsigned last, unsigned step)
+static struct ceduo_years *grow_years(unsigned first, unsigned last, unsigned step)
 {
     struct ceduo_years *years;
     assert_int_equal(ceduo_years_create(&wood.site.scene, &wood.option,
@@ -94,7 +94,7 @@ static struct ceduo_years *grown(unsigned first, unsigned last, unsigned step)
     return years;
 }
 
-static struct ceduo_simulated bare_of(uint64_t rocks)
+static struct ceduo_simulated simulate_bare(uint64_t rocks)
 {
     LOCAL(ceduo_run, run) = run_option(&wood.site.scene, NULL, rocks, 1);
     struct ceduo_simulated bare;
@@ -103,11 +103,11 @@ static struct ceduo_simulated bare_of(uint64_t rocks)
 }
 
 /* Grow and simulate with a temporary pool. */
-static struct ceduo_years *flown(unsigned first, unsigned last, unsigned step, unsigned threads, uint64_t rocks)
+static struct ceduo_years *simulate_years(unsigned first, unsigned last, unsigned step, unsigned threads, uint64_t rocks)
 {
-    struct ceduo_years *years = grown(first, last, step);
-    LOCAL(ceduo_pool, pool) = pool_of(threads, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(rocks);
+    struct ceduo_years *years = grow_years(first, last, step);
+    LOCAL(ceduo_pool, pool) = make_pool(threads, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(rocks);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, rocks), CEDUO_OK);
     return years;
 }
@@ -220,8 +220,8 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
 
 TEST_WITH(years_equal_separate_runs, fresh, NULL)
 {
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(ROCKS);
-    LOCAL(ceduo_years, years) = flown(0, 26, 1, 2, ROCKS);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(ROCKS);
+    LOCAL(ceduo_years, years) = simulate_years(0, 26, 1, 2, ROCKS);
     assert_int_equal(years->count, 27);
     unsigned cuts = 0;
     for (size_t i = 0; i < years->count; i++) {
@@ -234,12 +234,12 @@ TEST_WITH(years_equal_separate_runs, fresh, NULL)
 
 TEST_WITH(year_0_is_the_result, fresh, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(1, NULL);
+    LOCAL(ceduo_pool, pool) = make_pool(1, NULL);
     LOCAL(ceduo_result, result);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, ROCKS), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&wood.site.scene, pool, &result), CEDUO_OK);
-    LOCAL(ceduo_years, years) = grown(0, 0, 1);
+    LOCAL(ceduo_years, years) = grow_years(0, 0, 1);
     assert_int_equal(ceduo_years_simulate(years, pool, &result->bare, ROCKS), CEDUO_OK);
     const struct ceduo_year *y = &years->years[0];
     for (size_t c = 0; c < CONTROLS; c++) {
@@ -253,11 +253,11 @@ TEST_WITH(year_0_is_the_result, fresh, NULL)
 
 TEST_WITH(steps_and_stretches_pick_from_all, fresh, NULL)
 {
-    LOCAL(ceduo_years, all) = flown(0, 20, 1, 1, 300);
+    LOCAL(ceduo_years, all) = simulate_years(0, 20, 1, 1, 300);
     static const unsigned stretches[][3] = {{3, 3, 1}, {2, 20, 6}, {0, 19, 7}, {5, 6, 50}};
     for (size_t k = 0; k < sizeof stretches / sizeof stretches[0]; k++) {
         unsigned first = stretches[k][0], last = stretches[k][1], step = stretches[k][2];
-        LOCAL(ceduo_years, some) = flown(first, last, step, 1, 300);
+        LOCAL(ceduo_years, some) = simulate_years(first, last, step, 1, 300);
         assert_int_equal(some->count, (last - first) / step + 1);
         for (size_t i = 0; i < some->count; i++) {
             assert_int_equal(some->years[i].year, first + i * step);
@@ -268,11 +268,11 @@ TEST_WITH(steps_and_stretches_pick_from_all, fresh, NULL)
 
 TEST_WITH(threads_and_steps_change_nothing, fresh, NULL)
 {
-    LOCAL(ceduo_years, one) = flown(0, 5, 1, 1, 3000);
-    LOCAL(ceduo_years, two) = flown(0, 5, 1, 2, 3000);
-    LOCAL(ceduo_years, steps) = grown(0, 5, 1);
-    LOCAL(ceduo_pool, pool) = pool_of(2, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(3000);
+    LOCAL(ceduo_years, one) = simulate_years(0, 5, 1, 1, 3000);
+    LOCAL(ceduo_years, two) = simulate_years(0, 5, 1, 2, 3000);
+    LOCAL(ceduo_years, steps) = grow_years(0, 5, 1);
+    LOCAL(ceduo_pool, pool) = make_pool(2, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(3000);
     static const uint64_t rocks[] = {1, 1024, 1500, 3000, 2000}; /* runs never shrink */
     for (size_t i = 0; i < sizeof rocks / sizeof rocks[0]; i++)
         assert_int_equal(ceduo_years_simulate(steps, pool, &bare, rocks[i]), CEDUO_OK);
@@ -286,9 +286,9 @@ TEST_WITH(a_forest_is_simulated_once, fresh, NULL)
 {
     wood.belts[1].stand.cutting.cohorts = 1;
     wood.belts[1].cut_year = 7;
-    LOCAL(ceduo_years, years) = grown(0, 40, 1);
-    LOCAL(ceduo_pool, pool) = pool_of(2, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(100);
+    LOCAL(ceduo_years, years) = grow_years(0, 40, 1);
+    LOCAL(ceduo_pool, pool) = make_pool(2, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(100);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, 100), CEDUO_OK);
     struct ceduo_work work = ceduo_pool_work(pool);
     ROWS(EXPECT, (work.runs, ==, 7 + ROTATION), (work.runs + work.reused, ==, 41), (work.rocks, ==, 100 * work.runs));
@@ -307,12 +307,12 @@ struct by_hand {
     unsigned worst_year;
 };
 
-static double energy_of(const struct ceduo_rock *rock, const struct ceduo_crossing *at)
+static double read_energy(const struct ceduo_rock *rock, const struct ceduo_crossing *at)
 {
     return .5 * rock->mass * (at->vx * at->vx + at->vz * at->vz) + .5 * rock->moment * at->spin * at->spin;
 }
 
-static double error_of(double sum, double squares)
+static double read_error(double sum, double squares)
 {
     return sqrt((squares - sum * sum / SUMMED) / (SUMMED - 1) / SUMMED);
 }
@@ -328,7 +328,7 @@ static void add_year(struct by_hand *to, const struct ceduo_years *years, size_t
         struct ceduo_crossing at[CONTROLS];
         struct ceduo_trajectory way;
         assert_int_equal(ceduo_tracer_run(f, r, NULL, &way, at), CEDUO_OK);
-        double energy = at[c].reached ? energy_of(&way.rock, &at[c]) : 0;
+        double energy = at[c].reached ? read_energy(&way.rock, &at[c]) : 0;
         bool above = at[c].reached && energy > accepted;
         reach += at[c].reached;
         exceed += above;
@@ -343,7 +343,7 @@ static void add_year(struct by_hand *to, const struct ceduo_years *years, size_t
     to->energy += sum / SUMMED / n;
     to->reach_se += sqrt(reach * (1 - reach) / SUMMED) / n;
     to->exceed_se += isnan(accepted) ? NAN : sqrt(exceed * (1 - exceed) / SUMMED) / n;
-    to->energy_se += error_of(sum, squares) / n;
+    to->energy_se += read_error(sum, squares) / n;
     if (share > to->worst) {
         to->worst = share;
         to->worst_year = years->years[i].year;
@@ -361,7 +361,7 @@ static struct by_hand sum_by_hand(const struct ceduo_years *years, size_t c)
         squares += own[r] * own[r];
     }
     if (c == years->last_control)
-        *(isnan(h.exceed) ? &h.reach_se : &h.exceed_se) = error_of(sum, squares);
+        *(isnan(h.exceed) ? &h.reach_se : &h.exceed_se) = read_error(sum, squares);
     return h;
 }
 
@@ -396,7 +396,7 @@ TEST(sums_over_the_years)
     for (int rate = 0; rate < 2; rate++) {
         init();
         wood.site.scene.rocks_per_year = rate ? 2.5 : NAN;
-        LOCAL(ceduo_years, years) = flown(0, 22, 2, 2, SUMMED);
+        LOCAL(ceduo_years, years) = simulate_years(0, 22, 2, 2, SUMMED);
         for (size_t c = 0; c < CONTROLS; c++)
             expect_sum(years, c);
         assert_true(isnan(ceduo_years_sum(years, 0).exceed.mean)); /* no accepted energy */
@@ -416,7 +416,7 @@ TEST(years_of_blocks)
     wood.site.scene.blocks_count = 1;
     for (int i = 0; i < 2; i++) {
         wood.belts[1].stand.stools_per_ha = i == 0 ? 2500 : 600;
-        years[i] = flown(3, 7, 2, 1, FEW);
+        years[i] = simulate_years(3, 7, 2, 1, FEW);
         for (size_t r = 0; r < FEW; r++)
             marks[i][r] = 0;
         for (size_t y = 0; y < years[i]->count; y++) {
@@ -459,7 +459,7 @@ TEST_WITH(metres_felled, fresh, NULL)
         whole += wood.belts[i].to - wood.belts[i].from;
     }
     for (unsigned first = 9; first < 20; first++) {
-        LOCAL(ceduo_years, years) = grown(first, first + 3 * ROTATION - 1, 1);
+        LOCAL(ceduo_years, years) = grow_years(first, first + 3 * ROTATION - 1, 1);
         EXPECT(ceduo_years_felled(years), ==, 3 * whole);
         double by_hand = 0;
         for (size_t i = 0; i < years->count; i++)
@@ -467,16 +467,16 @@ TEST_WITH(metres_felled, fresh, NULL)
                 by_hand += years->years[i].option.belts[k].stand.stools_per_ha == 0 ? wood.belts[k].to - wood.belts[k].from : 0;
         EXPECT(by_hand, ==, 3 * whole); /* no stools stand just after the cut */
     }
-    LOCAL(ceduo_years, years) = grown(5, 6, 1);                                   /* freed without a simulation */
+    LOCAL(ceduo_years, years) = grow_years(5, 6, 1);                              /* freed without a simulation */
     EXPECT(ceduo_years_felled(years), ==, wood.belts[1].to - wood.belts[1].from); /* -3: 6 */
 }
 
 TEST_WITH(by_the_index_alone, fresh, NULL)
 {
     wood.site.scene.simulation.contact_model = CEDUO_INDEX;
-    LOCAL(ceduo_years, years) = grown(0, 15, 1);
-    LOCAL(ceduo_pool, pool) = pool_of(1, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(200);
+    LOCAL(ceduo_years, years) = grow_years(0, 15, 1);
+    LOCAL(ceduo_pool, pool) = make_pool(1, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(200);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, 200), CEDUO_OK);
     assert_int_equal(ceduo_pool_work(pool).runs, 0);
     double worst = 0;
@@ -500,8 +500,8 @@ TEST_WITH(by_the_index_alone, fresh, NULL)
 TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
 {
     wood.option.belts_count = 0;
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(500);
-    LOCAL(ceduo_years, years) = flown(0, 3, 1, 1, 500);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(500);
+    LOCAL(ceduo_years, years) = simulate_years(0, 3, 1, 1, 500);
     for (size_t i = 0; i < years->count; i++) {
         assert_false(years->years[i].cut);
         for (size_t c = 0; c < CONTROLS; c++) {
@@ -518,7 +518,7 @@ TEST_WITH(no_stem_is_hit_in_a_year_without_stems, fresh, NULL)
 {
     wood.option.belts_count = 1;
     wood.belts[0].stand.cutting.stay_count = 0;
-    LOCAL(ceduo_years, years) = flown(3, 5, 1, 1, 200);
+    LOCAL(ceduo_years, years) = simulate_years(3, 5, 1, 1, 200);
     const struct ceduo_year *y = &years->years[1];
     bool cut = y->cut && y->stands[0].bare && y->wooded.arrivals[1].reached > 0;
     double contacts = y->wooded.arrivals[1].contacts.mean;
@@ -620,8 +620,8 @@ static void count_run(void *context, uint64_t rocks)
 
 TEST_WITH(a_cancelled_simulation_can_continue, fresh, NULL)
 {
-    LOCAL(ceduo_years, whole) = flown(0, 8, 1, 2, ROCKS);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(ROCKS);
+    LOCAL(ceduo_years, whole) = simulate_years(0, 8, 1, 2, ROCKS);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(ROCKS);
     for (unsigned after = 0; after < 10; after += 3) {
         struct stop stop = {.cancel = after == 0, .after = after};
         struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
@@ -632,7 +632,7 @@ TEST_WITH(a_cancelled_simulation_can_continue, fresh, NULL)
         def.context = &stop;
         LOCAL(ceduo_pool, pool);
         assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
-        LOCAL(ceduo_years, years) = grown(0, 8, 1);
+        LOCAL(ceduo_years, years) = grow_years(0, 8, 1);
         enum ceduo_status status = ceduo_years_simulate(years, pool, &bare, ROCKS);
         assert_int_equal(status, after < 9 ? CEDUO_CANCELLED : CEDUO_OK);
         for (size_t i = 0; i < years->count; i++) {

@@ -26,7 +26,7 @@ static inline struct ceduo_cells *cells_in(int width, int height, enum ceduo_cha
 }
 
 /* Return a frame over the whole grid with x and y in dots from the lower left. */
-static inline struct ceduo_frame dots_of(const struct ceduo_cells *cells)
+static inline struct ceduo_frame frame_in_dots(const struct ceduo_cells *cells)
 {
     return (struct ceduo_frame){
         .width = cells->width,
@@ -37,7 +37,7 @@ static inline struct ceduo_frame dots_of(const struct ceduo_cells *cells)
 }
 
 /* Return a canvas with this character set, as frames see it. */
-static inline const struct ceduo_canvas *kind_of(enum ceduo_charset charset)
+static inline const struct ceduo_canvas *find_canvas(enum ceduo_charset charset)
 {
     static struct ceduo_canvas canvas;
     canvas = (struct ceduo_canvas){.dots_x = charset == ASCII ? 1 : 2, .dots_y = charset == BRAILLE ? 4 : 2};

@@ -70,7 +70,7 @@ TEST(tick_labels_have_no_negative_zero)
 /* ---- axes ---- */
 
 /* Count the texts in a row that are at least two blanks apart. */
-static int words_in(const char *row)
+static int count_texts(const char *row)
 {
     int words = 0, blanks = 2;
     for (; *row != '\0'; ++row) {
@@ -97,7 +97,7 @@ TEST(bottom_labels_never_touch)
             int ticks = 0;
             for (const char *c = ceduo_text_string(&line); *c != '\0'; ++c)
                 ticks += *c == '+';
-            assert_int_equal(words_in(ceduo_text_string(&labels)), ticks);
+            assert_int_equal(count_texts(ceduo_text_string(&labels)), ticks);
             EXPECT(strlen(ceduo_text_string(&labels)), <=, (size_t)width + 2);
         }
     }
@@ -107,7 +107,7 @@ TEST(axis_width_holds_every_label)
 {
     for (int height = 1; height < 40; ++height) {
         struct ceduo_frame frame = {.width = 4, .height = height, .x1 = 1, .y0 = -12.5, .y1 = 3.3 * height};
-        frame.left = ceduo_frame_axis_width(&frame, kind_of(BRAILLE));
+        frame.left = ceduo_frame_axis_width(&frame, find_canvas(BRAILLE));
         LOCAL(ceduo_cells, cells) = cells_in(frame.left + 4, height, BRAILLE);
         ceduo_canvas_axis_left(&cells->canvas, &frame);
         int widest = 0, last_tick = -2;
@@ -122,5 +122,5 @@ TEST(axis_width_holds_every_label)
         assert_int_equal(widest, 1); /* no column is wasted */
     }
     struct ceduo_frame bad = {.width = 4, .height = 0, .x1 = 1, .y1 = 1};
-    assert_int_equal(ceduo_frame_axis_width(&bad, kind_of(BRAILLE)), 0);
+    assert_int_equal(ceduo_frame_axis_width(&bad, find_canvas(BRAILLE)), 0);
 }

@@ -55,8 +55,8 @@ static void on_progress(void *context, const struct ceduo_calibration_state *sta
 
 static unsigned threads = 1;
 
-static struct ceduo_calibration fit_of(const struct ceduo_scene *scene, const struct ceduo_observation *seen, size_t n,
-                                       uint64_t rocks, struct way *way)
+static struct ceduo_calibration run_fit(const struct ceduo_scene *scene, const struct ceduo_observation *seen, size_t n,
+                                        uint64_t rocks, struct way *way)
 {
     const struct ceduo_calibration_scene of = {scene, &input, n, seen};
     const struct ceduo_calibration_def def = {.scenes_count = 1,
@@ -73,11 +73,11 @@ static struct ceduo_calibration fit_of(const struct ceduo_scene *scene, const st
     return a;
 }
 
-static struct ceduo_fitted fitted_to(double mean, double sd)
+static struct ceduo_fitted fit_observation(double mean, double sd)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(mean, sd);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2, NULL);
     struct ceduo_fitted p = a.parameters[0];
     return p;
 }
@@ -105,7 +105,7 @@ TEST(a_normal_law_is_found)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(14, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2, NULL);
     const struct ceduo_fitted *p = &a.parameters[0];
     EXPECT_NEAR(p->best, 14, 0.02);
     EXPECT_NEAR(p->p2_5, 14 - 1.96, 4 * 0.19);
@@ -123,19 +123,19 @@ TEST(a_normal_law_is_found)
  * bound. */
 TEST(values_at_a_bound)
 {
-    struct ceduo_fitted p = fitted_to(LO, 2);
+    struct ceduo_fitted p = fit_observation(LO, 2);
     assert_true(p.determined && p.at_bound);
     EXPECT(p.best, <, LO + 0.01);
     EXPECT(p.p50, >, LO + 0.5);
-    p = fitted_to(HI, 2);
+    p = fit_observation(HI, 2);
     assert_true(p.determined && p.at_bound);
     EXPECT(p.p50, <, HI - 0.5);
-    p = fitted_to(LO + 0.3, 0.1);
+    p = fit_observation(LO + 0.3, 0.1);
     assert_true(p.at_bound);
     EXPECT(p.best, >, LO + 0.2);
-    assert_true(fitted_to(HI - 0.3, 0.1).at_bound);
-    assert_false(fitted_to(LO + 0.8, 0.1).at_bound);
-    p = fitted_to(LO, 20);
+    assert_true(fit_observation(HI - 0.3, 0.1).at_bound);
+    assert_false(fit_observation(LO + 0.8, 0.1).at_bound);
+    p = fit_observation(LO, 20);
     assert_false(p.determined || p.at_bound);
 }
 
@@ -144,9 +144,9 @@ TEST(threads_change_nothing)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(14, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration one = fit_of(&scene, &seen, 1, 2, NULL);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration one = run_fit(&scene, &seen, 1, 2, NULL);
     threads = CEDUO_CALIBRATION_CHAINS + 1;
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration many = fit_of(&scene, &seen, 1, 2, NULL);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration many = run_fit(&scene, &seen, 1, 2, NULL);
     threads = 1;
     EXPECT(many.draws_count, ==, one.draws_count);
     assert_memory_equal(many.draws, one.draws, one.draws_count * sizeof *one.draws);
@@ -158,7 +158,7 @@ TEST(without_information_the_law_stays_uniform)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = all_pass();
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2, NULL);
     const struct ceduo_fitted *p = &a.parameters[0];
     double sum = 0, squares = 0, n = (double)a.draws_count;
     for (size_t i = 0; i < a.draws_count; i++) {
@@ -179,7 +179,7 @@ TEST(a_simplex_stays_within_its_bounds)
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(25, 1);
     struct way way = {NAN};
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, &way);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2, &way);
     EXPECT(way.best, <=, LO + (HI - LO) / (1 + exp(-9)));
     EXPECT(way.best, >, HI - 0.01);
     EXPECT(a.parameters[0].best, <=, HI);
@@ -235,7 +235,7 @@ TEST(one_misfit_is_enough)
             struct ceduo_observation seen[3] = {all_pass(), all_pass(), all_pass()};
             seen[first] = speed(30, 1);
             seen[first].use = check ? CEDUO_OBSERVED_CHECK : CEDUO_OBSERVED_FIT;
-            LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, seen, 3, 2, NULL);
+            LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, seen, 3, 2, NULL);
             EXPECT(a.predicted[first].p_value, <, 0.001);
             EXPECT(a.predicted[2].p_value, >, 0.5);
             EXPECT(a.misfit, ==, !check);
@@ -255,7 +255,7 @@ TEST(prediction_uses_other_rocks_than_the_fit)
     LOCAL(ceduo_observer, observer);
     EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_simulate(observer, &scene, 50, NULL, &own), ==, CEDUO_OK);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 50, NULL);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 50, NULL);
     const struct ceduo_observation_fit *at_best = &a.predicted[0].at_best;
     EXPECT(at_best->mean, !=, own.mean);
     EXPECT_NEAR(at_best->mean, own.mean, 5 * hypot(at_best->sd, own.sd) / sqrt(50));
@@ -266,11 +266,11 @@ TEST(few_single_values_give_no_range)
 {
     struct ceduo_scene scene = flight(0);
     struct ceduo_observation seen[2] = {all_pass(), speed(15, 1)};
-    struct ceduo_calibration a = fit_of(&scene, seen, 2, 2, NULL);
+    struct ceduo_calibration a = run_fit(&scene, seen, 2, 2, NULL);
     assert_true(a.predicted[1].one_lo < 15 && a.predicted[1].one_hi > 15);
     ceduo_calibration_free(&a);
     seen[1].use = CEDUO_OBSERVED_CHECK; /* one rock has no spread to fit */
-    a = fit_of(&scene, seen, 2, 1, NULL);
+    a = run_fit(&scene, seen, 2, 1, NULL);
     assert_true(isnan(a.predicted[1].one_lo) && isnan(a.predicted[1].one_hi));
     ceduo_calibration_free(&a);
 }

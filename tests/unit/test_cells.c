@@ -43,7 +43,7 @@ TEST(rank_decides_the_role_in_any_order)
         CEDUO_ROLE_STOOL,  CEDUO_ROLE_GROUND, CEDUO_ROLE_CLOUD,   CEDUO_ROLE_AXIS, CEDUO_ROLE_DIM,
     };
     LOCAL(ceduo_cells, cells) = cells_in(2, 1, BRAILLE);
-    struct ceduo_frame frame = dots_of(cells);
+    struct ceduo_frame frame = frame_in_dots(cells);
     for (size_t i = 1; i < sizeof falling / sizeof falling[0]; ++i) {
         ceduo_cells_clear(cells);
         draw_point(cells, &frame, falling[i - 1], 0, 0);

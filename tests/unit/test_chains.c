@@ -33,7 +33,7 @@ static enum ceduo_status normal(void *context, size_t chain, const double *x, do
 }
 
 /* A wrong surrogate: too narrow and off centre. */
-static double wrong_guess(void *context, const double *x)
+static double wrong_surrogate(void *context, const double *x)
 {
     (void)context;
     double moved[2] = {1 + 1.3 * (x[0] - 1.3), -2 + 1.3 * (x[1] + 1.9)};
@@ -63,7 +63,7 @@ static struct chains_def two_dimensions(void)
                                .density = normal};
 }
 
-static double mean_of(const struct chains *c, size_t i)
+static double compute_mean(const struct chains *c, size_t i)
 {
     double sum = 0;
     size_t n = ceduo_chains_draws(c);
@@ -72,9 +72,9 @@ static double mean_of(const struct chains *c, size_t i)
     return sum;
 }
 
-static double covariance_of(const struct chains *c, size_t i, size_t k)
+static double compute_covariance(const struct chains *c, size_t i, size_t k)
 {
-    double sum = 0, mean_i = mean_of(c, i), mean_k = mean_of(c, k);
+    double sum = 0, mean_i = compute_mean(c, i), mean_k = compute_mean(c, k);
     size_t n = ceduo_chains_draws(c);
     for (size_t s = 0; s < n; s++)
         sum += (ceduo_chains_draw(c, s)[i] - mean_i) * (ceduo_chains_draw(c, s)[k] - mean_k) / (double)n;
@@ -88,11 +88,11 @@ static void expect_normal(const struct chains_def *def)
     EXPECT(ceduo_chains_run(def, &c), ==, CEDUO_OK);
     assert_true(c.settled);
     EXPECT(c.effective_size, >=, 4000);
-    EXPECT_NEAR(mean_of(&c, 0), 1, 4 * 2 / sqrt(4000));
-    EXPECT_NEAR(mean_of(&c, 1), -2, 4 * 0.5 / sqrt(4000));
-    EXPECT_NEAR(covariance_of(&c, 0, 0) / 4, 1, 4 * sqrt(2. / 4000));
-    EXPECT_NEAR(covariance_of(&c, 1, 1) / 0.25, 1, 4 * sqrt(2. / 4000));
-    EXPECT_NEAR(covariance_of(&c, 0, 1), RHO, 4 * sqrt((1 + RHO * RHO) / 4000));
+    EXPECT_NEAR(compute_mean(&c, 0), 1, 4 * 2 / sqrt(4000));
+    EXPECT_NEAR(compute_mean(&c, 1), -2, 4 * 0.5 / sqrt(4000));
+    EXPECT_NEAR(compute_covariance(&c, 0, 0) / 4, 1, 4 * sqrt(2. / 4000));
+    EXPECT_NEAR(compute_covariance(&c, 1, 1) / 0.25, 1, 4 * sqrt(2. / 4000));
+    EXPECT_NEAR(compute_covariance(&c, 0, 1), RHO, 4 * sqrt((1 + RHO * RHO) / 4000));
 }
 
 TEST(a_normal_law_is_sampled)
@@ -102,7 +102,7 @@ TEST(a_normal_law_is_sampled)
 }
 
 /* The first evaluation of each chain is at its start. */
-static enum ceduo_status at_its_start(void *context, size_t chain, const double *x, double *log_density)
+static enum ceduo_status check_start(void *context, size_t chain, const double *x, double *log_density)
 {
     bool *begun = context;
     if (!begun[chain])
@@ -117,7 +117,7 @@ TEST(chains_begin_at_their_starts)
     struct chains_def def = two_dimensions();
     bool begun[4] = {false};
     LOCAL_BY(ceduo_chains_release) struct chains c;
-    def.density = at_its_start;
+    def.density = check_start;
     def.context = begun;
     def.steps_most = 500;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
@@ -129,7 +129,7 @@ TEST(chains_begin_at_their_starts)
 TEST(a_wrong_surrogate_changes_nothing)
 {
     struct chains_def def = two_dimensions();
-    def.guess = wrong_guess;
+    def.guess = wrong_surrogate;
     def.learn = learn_nothing;
     expect_normal(&def);
 }
@@ -138,7 +138,7 @@ TEST(threads_change_no_bit)
 {
     struct chains_def def = two_dimensions();
     LOCAL_BY(ceduo_chains_release) struct chains one, four;
-    def.guess = wrong_guess;
+    def.guess = wrong_surrogate;
     def.learn = learn_nothing;
     def.steps_most = 600;
     EXPECT(ceduo_chains_run(&def, &one), ==, CEDUO_OK);
@@ -155,7 +155,7 @@ TEST(threads_change_no_bit)
 
 /* Four chains of independent normal draws, chain k with mean k·apart; or each draw is phi times the previous one plus a new
  * one. */
-static struct chains made(double apart, double phi)
+static struct chains make_chains(double apart, double phi)
 {
     struct chains c = {.dimensions = 1, .chains = 4, .steps = STEPS, .room = STEPS};
     struct line_random random = {.state = 5};
@@ -173,12 +173,12 @@ static struct chains made(double apart, double phi)
 TEST(chains_apart_do_not_agree)
 {
     double rhat, size;
-    struct chains c = made(0, 0);
+    struct chains c = make_chains(0, 0);
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
     EXPECT_NEAR(rhat, 1, 0.003);
     EXPECT_NEAR(size / (4 * STEPS / 2), 1, 0.1);
     ceduo_chains_release(&c);
-    c = made(1, 0);
+    c = make_chains(1, 0);
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
     EXPECT_NEAR(rhat, sqrt(1 + 10. / 7), 0.02);
     ceduo_chains_release(&c);
@@ -188,7 +188,7 @@ TEST(chains_apart_do_not_agree)
 TEST(correlated_draws_count_less)
 {
     double rhat, size;
-    LOCAL_BY(ceduo_chains_release) struct chains c = made(0, 0.8);
+    LOCAL_BY(ceduo_chains_release) struct chains c = make_chains(0, 0.8);
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
     EXPECT_NEAR(size / (4 * STEPS / 2), 1. / 9, 0.02);
 }
@@ -204,7 +204,7 @@ TEST(short_chains_by_hand)
 }
 
 /* Effective size of a chain that is `run` times at 1, then at -1, and so on: 64 steps, 32 of them used, in two halves. */
-static double effective_of(size_t run)
+static double compute_effective(size_t run)
 {
     double rhat, size, x[64];
     const struct chains c = {.dimensions = 1, .chains = 1, .steps = 64, .room = 64, .x = x};
@@ -219,8 +219,8 @@ static double effective_of(size_t run)
  * less than 0 and are dropped. */
 TEST(draws_that_alternate)
 {
-    EXPECT_NEAR(effective_of(1), 32, 1e-12);
-    EXPECT_NEAR(effective_of(4), 32 / (1 + 2 * (1 - 6. / 15 + 1 - 12. / 14)), 1e-9);
+    EXPECT_NEAR(compute_effective(1), 32, 1e-12);
+    EXPECT_NEAR(compute_effective(4), 32 / (1 + 2 * (1 - 6. / 15 + 1 - 12. / 14)), 1e-9);
 }
 
 /* ---- surrogate ---- */
@@ -352,7 +352,7 @@ struct ending {
     enum ceduo_status status;
 };
 
-static enum ceduo_status ends(void *context, size_t chain, const double *x, double *log_density)
+static enum ceduo_status stop_after(void *context, size_t chain, const double *x, double *log_density)
 {
     struct ending *e = context;
     (void)chain;
@@ -373,7 +373,7 @@ TEST(chains_can_be_stopped)
     struct chains_def def = two_dimensions();
     const int left[] = {0, 3, 4, 150, 4 + 4 * CEDUO_CHAINS_ROUND};
     const size_t steps[] = {1, 1, 1, 1, 1 + CEDUO_CHAINS_ROUND};
-    def.density = ends;
+    def.density = stop_after;
     for (int i = 0; i < 5; i++) {
         struct ending e = {left[i], CEDUO_CANCELLED};
         def.context = &e;

@@ -123,7 +123,7 @@ static void save(const char *to)
 }
 
 /* Return the backup copy of unsaved work, or NULL. */
-static const char *copy_of(void)
+static const char *find_copy(void)
 {
     static char text[4096];
     FILE *f = fopen(d.recovery.path, "r");
@@ -152,8 +152,8 @@ static void walk(const char *steps)
         snprintf(copied, sizeof copied, "rock: {diameter_m: %s, ", diameter);
         if (d.file.scene.rock.diameter.mean != atof(diameter) || ceduo_document_unsaved(&d) != unsaved)
             fail_msg("%g, %d at %s", d.file.scene.rock.diameter.mean, ceduo_document_unsaved(&d), steps);
-        if ((copy_of() != NULL) != unsaved || (unsaved && !strstr(copy_of(), copied)))
-            fail_msg("%s is the copy at %s", copy_of() ? copy_of() : "none", steps);
+        if ((find_copy() != NULL) != unsaved || (unsaved && !strstr(find_copy(), copied)))
+            fail_msg("%s is the copy at %s", find_copy() ? find_copy() : "none", steps);
     }
     assert_int_equal(*steps, '\0');
 }
@@ -212,7 +212,7 @@ static size_t count_notes(void)
 }
 
 /* Return two changes from the table: PATH=VALUE, or a path to delete. */
-static const struct changes *changes_of(const char *first, const char *second)
+static const struct changes *make_changes(const char *first, const char *second)
 {
     static struct changes changes;
     changes = (struct changes){.document = &d};
@@ -257,9 +257,9 @@ static bool step(const char *const at[TABLE_COLUMNS])
         size_t before = d.at;
         good = !ceduo_document_set(&d, a, b) && strstr(ceduo_problems_print(&d.problems), at[3]) && d.at == before;
     } else if (IS("set-all"))
-        good = ceduo_changes_make(changes_of(a, b), at[3]);
+        good = ceduo_changes_make(make_changes(a, b), at[3]);
     else if (IS("duplicate"))
-        good = ceduo_document_duplicate(&d, a, k, *at[3] ? changes_of(at[3], at[4]) : NULL);
+        good = ceduo_document_duplicate(&d, a, k, *at[3] ? make_changes(at[3], at[4]) : NULL);
     else if (IS("add"))
         good = ceduo_document_add_option(&d, a, a);
     else if (IS("move"))
@@ -380,7 +380,7 @@ TEST_WITH(history_is_cut, set_up, tear_down)
 }
 
 /* Return the copy of a scene whose process has ended, and its path in `file`; NULL: none. Caller frees. */
-static char *left_of(const char *of, char file[400])
+static char *find_left_copy(const char *of, char file[400])
 {
     struct arena arena = {0};
     size_t n;
@@ -399,7 +399,7 @@ static char *left_of(const char *of, char file[400])
 TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
 {
     char file[400];
-    assert_null(left_of(path, file));
+    assert_null(find_left_copy(path, file));
     pid_t child = fork();
     if (child == 0) { /* a program that ends without cleaning up */
         open_scene();
@@ -408,7 +408,7 @@ TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
     }
     int status;
     assert_true(waitpid(child, &status, 0) == child && status == 0);
-    char *text = left_of(path, file);
+    char *text = find_left_copy(path, file);
     assert_non_null(text);
     open_scene();
     assert_true(ceduo_document_recover(&d, text));
@@ -436,7 +436,7 @@ TEST_WITH(an_incomplete_copy_is_removed, set_up, tear_down)
         fputs("rock: {", f);
         fclose(f);
     }
-    assert_null(left_of(path, file));
+    assert_null(find_left_copy(path, file));
     assert_int_equal(access(names[0], F_OK), -1);
     assert_int_equal(access(names[1], F_OK), 0); /* another user's */
     ceduo_recovery_end(&own);
@@ -461,17 +461,17 @@ TEST_WITH(a_locked_copy_is_not_left_over, set_up, tear_down)
         _exit(!good);
     }
     assert_int_equal(read(to_parent[0], &ready, 1), 1);
-    assert_null(left_of(path, file));
+    assert_null(find_left_copy(path, file));
     int status;
     assert_int_equal(kill(child, SIGKILL), 0);
     assert_true(waitpid(child, &status, 0) == child);
-    char *text = left_of(path, file);
+    char *text = find_left_copy(path, file);
     assert_non_null(text);
     free(text);
     /* with the number of a local process */
     snprintf(renamed, sizeof renamed, "%.*s-%ld.yaml", (int)(strrchr(file, '-') - file), file, (long)getppid());
     assert_int_equal(rename(file, renamed), 0);
-    text = left_of(path, file);
+    text = find_left_copy(path, file);
     assert_non_null(text);
     free(text);
     for (int i = 0; i < 2; i++) {
@@ -555,8 +555,8 @@ TEST_WITH(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down)
     }
     int status;
     assert_true(waitpid(child, &status, 0) == child && status == 0);
-    assert_null(left_of(path, file));
-    char *text = left_of(other, file);
+    assert_null(find_left_copy(path, file));
+    char *text = find_left_copy(other, file);
     assert_non_null(text);
     unlink(file);
     unlink(other);
@@ -603,8 +603,8 @@ TEST_WITH(the_copy_refers_to_the_same_files, set_up, tear_down)
     save(there);
     set("slope.facets", "both");
     set("forest[0].stand.trees[0].per_ha", "50");
-    assert_non_null(copy_of());
-    strcpy(text, copy_of());
+    assert_non_null(find_copy());
+    strcpy(text, find_copy());
     ceduo_recovery_delete(&d.recovery);
     reopen(there);
     must(ceduo_document_recover(&d, text));

@@ -104,7 +104,7 @@ TEST(a_search_ends_at_once)
 }
 
 /* Unbounded goals, and one that is met exactly, by bisection. */
-static enum ceduo_status steps_down(void *context, double value, double *goal)
+static enum ceduo_status decrease_by_steps(void *context, double value, double *goal)
 {
     const double *levels = context;
     *goal = value < 3 ? levels[0] : levels[1];
@@ -117,7 +117,7 @@ TEST(goals_without_end)
     for (size_t i = 0; i < sizeof levels / sizeof levels[0]; i++) {
         struct ceduo_found found;
         double pair[2] = {levels[i][0], levels[i][1]};
-        const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = .5, .goal = steps_down, .context = pair};
+        const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = .5, .goal = decrease_by_steps, .context = pair};
         assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
         assert_true(found.found);
         EXPECT(found.value, >=, 3);
@@ -127,7 +127,7 @@ TEST(goals_without_end)
     }
 }
 
-static enum ceduo_status falls(void *context, double value, double *goal)
+static enum ceduo_status decrease(void *context, double value, double *goal)
 {
     const double *top = context;
     *goal = *top - value;
@@ -139,14 +139,14 @@ TEST(few_values_and_too_many)
 {
     struct ceduo_found found;
     double top = 10;
-    struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 5.5, .goal = falls, .context = &top, .tolerance = .5};
+    struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 5.5, .goal = decrease, .context = &top, .tolerance = .5};
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
     assert_true(found.found);
     EXPECT(found.value, >=, 4.5);
     EXPECT(found.value, <, 4.5 + 4);
     EXPECT(found.side, ==, CEDUO_SMALLEST);
     assert_int_equal(found.evaluations, 3);
-    def = (struct ceduo_find_def){.lo = 0, .hi = 1e300, .whole = true, .target = 5.5, .goal = falls, .context = &top};
+    def = (struct ceduo_find_def){.lo = 0, .hi = 1e300, .whole = true, .target = 5.5, .goal = decrease, .context = &top};
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
     assert_true(found.found);
     EXPECT(found.value, >=, 5);

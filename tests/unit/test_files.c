@@ -141,7 +141,7 @@ TEST_WITH(long_names_are_written, folder_set_up_profiles, folder_tear_down)
 static char told[400];
 
 /* Read a file into `text`; if that fails, put the message into `problem`. */
-static bool take(const char *path, struct text *text, size_t most)
+static bool read_limited(const char *path, struct text *text, size_t most)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
@@ -157,15 +157,15 @@ static bool take(const char *path, struct text *text, size_t most)
 static void expect_bytes(const char *path, size_t most, const char *bytes)
 {
     struct text text;
-    assert_true(take(path, &text, most));
+    assert_true(read_limited(path, &text, most));
     assert_string_equal(ceduo_text_string(&text), bytes);
     ceduo_text_free(&text);
 }
 
-static void expect_told(const char *path, size_t most, const char *words)
+static void expect_problem(const char *path, size_t most, const char *words)
 {
     struct text text;
-    assert_false(take(path, &text, most));
+    assert_false(read_limited(path, &text, most));
     assert_non_null(strstr(told, words));
 }
 
@@ -175,11 +175,11 @@ TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
     put("some", "twelve bytes");
     in_folder(path, "some");
     expect_bytes(path, 12, "twelve bytes");
-    expect_told(path, 11, "larger than 0 MiB");
-    expect_told(folder, 11, "Is a directory");
+    expect_problem(path, 11, "larger than 0 MiB");
+    expect_problem(folder, 11, "Is a directory");
     in_folder(path, "none");
-    expect_told(path, 11, "No such file");
-    expect_told("/dev/zero", 11, "a device or a socket; name a file");
+    expect_problem(path, 11, "No such file");
+    expect_problem("/dev/zero", 11, "a device or a socket; name a file");
     expect_bytes("/proc/self/status", 11, ""); /* its reported size is 0 */
     /* through links to a missing file, by relative and absolute paths; a link to itself is refused */
     in_folder(link, "link");
@@ -225,7 +225,7 @@ TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
     assert_false(ceduo_file_same(other, "-"));
     close(STDIN_FILENO);
     assert_false(ceduo_file_same(link, "-"));
-    expect_told("-", 9, "standard input: cannot read it: Bad file descriptor");
+    expect_problem("-", 9, "standard input: cannot read it: Bad file descriptor");
     dup2(was, STDIN_FILENO);
     close(was);
 }
@@ -284,7 +284,7 @@ TEST(an_interrupted_read_continues)
     const struct itimerval soon = {.it_value = {.tv_usec = 100000}};
     assert_int_equal(sigaction(SIGALRM, &action, NULL), 0);
     assert_int_equal(setitimer(ITIMER_REAL, &soon, NULL), 0);
-    assert_true(take("-", &text, 100));
+    assert_true(read_limited("-", &text, 100));
     assert_string_equal(text.bytes, "late");
     close(ends[0]);
     dup2(was, STDIN_FILENO);

@@ -36,13 +36,13 @@ static bool show(void)
     return ceduo_jobs_show(jobs, &file, 0);
 }
 
-static struct jobs_state take(void)
+static struct jobs_state take_results(void)
 {
     ceduo_result_list_free(&results);
     return ceduo_jobs_take(jobs, &results);
 }
 
-static struct ceduo_search search_of(uint64_t rocks)
+static struct ceduo_search make_search(uint64_t rocks)
 {
     return (struct ceduo_search){
         .path = "rock.diameter_m", .goal = CEDUO_GOAL_EXCEED, .target = .3, .lo = .2, .hi = 1.5, .rocks = rocks};
@@ -52,9 +52,9 @@ TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
 {
     assert_true(show());
     assert_false(show()); /* same runs */
-    assert_true(take().busy);
+    assert_true(take_results().busy);
     ceduo_jobs_wait(jobs, true);
-    assert_false(take().busy);
+    assert_false(take_results().busy);
     assert_non_null(results.snapshot);
     assert_int_equal(results.snapshot->key, ceduo_jobs_key(&file.scene));
     assert_int_equal(results.snapshot->snapshot->bare->flown.rocks, RUNS_MAX);
@@ -70,7 +70,7 @@ TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
     assert_false(show()); /* already computed */
     file.scene.rock.diameter.mean *= 1.1;
     assert_true(show());
-    assert_true(take().busy);
+    assert_true(take_results().busy);
 }
 
 /* Results that were not fetched are dropped when the scene changes. */
@@ -80,7 +80,7 @@ TEST_WITH(results_of_an_older_scene_are_dropped, set_up, tear_down)
     ceduo_jobs_wait(jobs, true);
     file.scene.rock.diameter.mean *= 1.1;
     assert_true(show());
-    take();
+    take_results();
     if (results.snapshot)
         assert_true(results.snapshot->key == ceduo_jobs_key(&file.scene));
     for (size_t i = 0; results.years && i < results.years->n; i++)
@@ -106,12 +106,12 @@ TEST_WITH(each_contact_model_has_its_own_key, set_up, tear_down)
 /* A search precedes the figures, which continue after it; its result is independent of them, and the scene does not change. */
 TEST_WITH(a_search_comes_first, set_up, tear_down)
 {
-    struct ceduo_search search = search_of(500);
+    struct ceduo_search search = make_search(500);
     double diameter = file.scene.rock.diameter.mean;
     show();
     ceduo_jobs_ask(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
     assert_true(ceduo_jobs_wait(jobs, false));
-    take();
+    take_results();
     assert_non_null(results.search);
     assert_int_equal(results.search->status, CEDUO_OK);
     EXPECT(file.scene.rock.diameter.mean, ==, diameter);
@@ -122,7 +122,7 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
     assert_int_equal(alone.found.evaluations, results.search->found.evaluations);
     assert_false(ceduo_jobs_wait(jobs, false));
     ceduo_jobs_wait(jobs, true);
-    take();
+    take_results();
     assert_non_null(results.snapshot);
     assert_null(results.search);
 }
@@ -132,7 +132,7 @@ TEST_WITH(a_preview_comes_first, set_up, tear_down)
 {
     ceduo_jobs_ask(jobs, &(struct job_request){JOB_PREVIEW, &file, 0, 1, "rock.diameter_m", "0.6", NULL, NULL});
     assert_true(ceduo_jobs_wait(jobs, false));
-    take();
+    take_results();
     assert_non_null(results.preview);
 }
 
@@ -141,7 +141,7 @@ TEST_WITH(the_other_law_is_computed_as_well, set_up, tear_down)
 {
     show();
     ceduo_jobs_wait(jobs, true);
-    take();
+    take_results();
     assert_non_null(results.others);
     assert_int_equal(results.others->options, 1);
     assert_int_equal(results.others->controls, file.scene.controls_count);
@@ -152,14 +152,14 @@ TEST_WITH(the_other_law_is_computed_as_well, set_up, tear_down)
         file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* the scene's own law does not use it */
     assert_true(show());
     ceduo_jobs_wait(jobs, true);
-    take();
+    take_results();
     assert_non_null(results.others);
     EXPECT(results.others->items[0].arrivals.reach.mean, <, before);
     assert_null(results.snapshot);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     show();
     ceduo_jobs_wait(jobs, true);
-    take();
+    take_results();
     assert_null(results.others);
 }
 
@@ -168,7 +168,7 @@ static const struct uncertainty *uncertainty(size_t shown, size_t levels)
     assert_true(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
     assert_false(ceduo_jobs_ask(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
     ceduo_jobs_wait(jobs, true);
-    take();
+    take_results();
     assert_non_null(results.uncertainty);
     assert_true(results.uncertainty->file.root == file.root);
     return results.uncertainty;
@@ -232,15 +232,15 @@ TEST_WITH(the_shown_option_has_its_uncertainty_first, set_up_options, tear_down)
 /* A stopped job ends soon, without a result. */
 TEST_WITH(a_search_can_be_stopped, set_up, tear_down)
 {
-    struct ceduo_search search = search_of(CEDUO_ROCKS_MAX);
+    struct ceduo_search search = make_search(CEDUO_ROCKS_MAX);
     ceduo_jobs_ask(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
     struct timespec moment = {.tv_nsec = 200000000};
     nanosleep(&moment, NULL);
-    assert_true(take().busy);
+    assert_true(take_results().busy);
     double start = ceduo_clock();
     ceduo_jobs_stop(jobs, JOB_SEARCH);
     ceduo_jobs_wait(jobs, true);
     EXPECT(ceduo_clock() - start, <, 1); /* 0.1 s on an idle machine */
-    take();
+    take_results();
     assert_null(results.search);
 }

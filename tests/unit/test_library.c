@@ -333,7 +333,7 @@ struct figures {
     char message[512], number[32], text[32];
 };
 
-static struct figures take_figures(void)
+static struct figures read_figures(void)
 {
     struct ceduo_scene_file r;
     struct ceduo_results a;
@@ -377,7 +377,7 @@ static void compare_figures(const struct figures *was, const char *locale)
         print_message("no locale %s, and localedef cannot make it\n", locale);
         skip();
     }
-    struct figures is = take_figures();
+    struct figures is = read_figures();
     assert_string_equal(setlocale(LC_NUMERIC, NULL) + 5, ".UTF-8"); /* unchanged */
     double comma = strtod("1,5", NULL);
     setlocale(LC_ALL, "C");
@@ -394,7 +394,7 @@ TEST_WITH(numbers_have_a_dot_in_every_locale, folder_set_up, folder_tear_down)
     put("line.csv", "x_m,z_m\n0,90.5\n60.25,40.5\n100,0\n");
     put("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [90.5]\n"
                       "slope: {csv: line.csv, segments: [{rn: 0.35, rt: 0.85, roughness_rad: 0.1}]}\n");
-    const struct figures was = take_figures();
+    const struct figures was = read_figures();
     ROWS(EXPECT, (was.gravity, ==, 9.81), (was.rn, ==, .35), (was.diameter, ==, .75), (was.z, ==, -50),
          (was.control, ==, 90.5));
     EXPECT(was.default_friction, >, 0);
@@ -493,7 +493,7 @@ TEST(one_thread_at_a_time_calls_the_caller)
 enum { YEARS = 20 };
 
 /* Get the energies that arrive in the years of the first option, each with independent rocks. */
-static void take_years(const char *seed, double *energies)
+static void read_years(const char *seed, double *energies)
 {
     struct ceduo_scene_file r;
     struct ceduo_results a;
@@ -516,8 +516,8 @@ static void take_years(const char *seed, double *energies)
 TEST(no_seed_has_the_rocks_of_another_one_in_another_year)
 {
     double low[YEARS], high[YEARS];
-    take_years("simulation.seed=0", low);
-    take_years("simulation.seed=9007199254740992", high);
+    read_years("simulation.seed=0", low);
+    read_years("simulation.seed=9007199254740992", high);
     for (size_t i = 0; i < YEARS; i++)
         for (size_t k = 0; k < YEARS; k++)
             EXPECT(low[i], !=, high[k]);

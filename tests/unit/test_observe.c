@@ -24,7 +24,7 @@ static void make_ground(double fall, double height, double vx, double vz)
     ground_make(&g, 200, fall, height, vx, vz);
 }
 
-static struct ceduo_observation_fit look(struct ceduo_observation seen)
+static struct ceduo_observation_fit compare(struct ceduo_observation seen)
 {
     LOCAL(ceduo_observer, observer);
     struct ceduo_observation_fit c;
@@ -33,22 +33,22 @@ static struct ceduo_observation_fit look(struct ceduo_observation seen)
     return c;
 }
 
-static struct ceduo_observation something(enum ceduo_observed_kind kind)
+static struct ceduo_observation make_observation(enum ceduo_observed_kind kind)
 {
     return (struct ceduo_observation){
         .kind = kind, .x = NAN, .from = NAN, .to = NAN, .mean = NAN, .sd = NAN, .share_seen = NAN};
 }
 
-static struct ceduo_observation at(enum ceduo_observed_kind kind, double x)
+static struct ceduo_observation observe_at(enum ceduo_observed_kind kind, double x)
 {
-    struct ceduo_observation o = something(kind);
+    struct ceduo_observation o = make_observation(kind);
     o.x = x;
     return o;
 }
 
-static struct ceduo_observation along(enum ceduo_observed_kind kind, double from, double to)
+static struct ceduo_observation observe_along(enum ceduo_observed_kind kind, double from, double to)
 {
-    struct ceduo_observation o = something(kind);
+    struct ceduo_observation o = make_observation(kind);
     o.from = from;
     o.to = to;
     return o;
@@ -64,14 +64,14 @@ static struct ceduo_observation measured(struct ceduo_observation o, size_t n, d
 
 static struct ceduo_observation stops(size_t n, double *values)
 {
-    struct ceduo_observation o = something(CEDUO_OBSERVED_STOPS);
+    struct ceduo_observation o = make_observation(CEDUO_OBSERVED_STOPS);
     o.n = n;
     o.values = values;
     return o;
 }
 
 /* Return the values of all rocks for the first of n observations; caller frees. */
-static double *values_of(const struct ceduo_observation *seen, size_t n)
+static double *simulate_values(const struct ceduo_observation *seen, size_t n)
 {
     LOCAL(ceduo_observer, observer);
     double *values;
@@ -83,7 +83,7 @@ static double *values_of(const struct ceduo_observation *seen, size_t n)
 }
 
 /* Make a belt of trees from a place to 100 m with work u per cubic metre; for one scene at a time. */
-static struct ceduo_belt *belt_of(double from, struct ceduo_stems stems, double u)
+static struct ceduo_belt *make_belt(double from, struct ceduo_stems stems, double u)
 {
     static struct ceduo_stems tree;
     static struct ceduo_belt belt;
@@ -99,10 +99,10 @@ static struct ceduo_belt *belt_of(double from, struct ceduo_stems stems, double 
 TEST(a_count_is_binomial)
 {
     make_ground(0, HIGH, FAST, 0);
-    struct ceduo_observation o = at(CEDUO_OBSERVED_PASSED, 10);
+    struct ceduo_observation o = observe_at(CEDUO_OBSERVED_PASSED, 10);
     o.count = 3;
     o.of = 4;
-    struct ceduo_observation_fit c = look(o);
+    struct ceduo_observation_fit c = compare(o);
     double p = 100.5 / 101;
     EXPECT(c.classes, ==, 2);
     EXPECT_NEAR(c.log_likelihood, log(4) + 3 * log(p) + log(1 - p), 1e-12);
@@ -123,7 +123,7 @@ TEST(stops_are_multinomial)
     for (int i = 0; i < 10; i++) /* five before it, five after it; the median is 4 m after it */
         values[i] = at + (i < 5 ? i - 5 : 5 + i);
     struct ceduo_observation o = stops(10, values);
-    struct ceduo_observation_fit c = look(o);
+    struct ceduo_observation_fit c = compare(o);
     double p[2] = {100.5 / 101, 0.5 / 101};
     EXPECT(c.classes, ==, 2);
     EXPECT(c.count[0], ==, 100);
@@ -131,7 +131,7 @@ TEST(stops_are_multinomial)
     EXPECT_NEAR(c.log_likelihood, log(252) + 5 * log(p[0]) + 5 * log(p[1]), 1e-10);
     EXPECT_NEAR(c.deviance, 2 * (5 * log(0.5 / p[0]) + 5 * log(0.5 / p[1])), 1e-10);
     o.of = 12; /* two more did not stop: a separate class */
-    c = look(o);
+    c = compare(o);
     EXPECT(c.classes, ==, 3);
     EXPECT(c.seen[2], ==, 2);
     EXPECT(c.count[2], ==, 0);
@@ -139,7 +139,7 @@ TEST(stops_are_multinomial)
     EXPECT_NEAR(c.log_likelihood, log(16632) + 5 * log(100.5 / 101.5) + 5 * log(0.5 / 101.5) + 2 * log(0.5 / 101.5), 1e-10);
     o.from = at + 1; /* outside the observed area: none counts, and two classes need twenty rocks */
     o.of = 0;
-    c = look(o);
+    c = compare(o);
     EXPECT(c.rocks, ==, 0);
     EXPECT_NEAR(c.log_likelihood, log(252) + 10 * log(0.5 / 21), 1e-10);
 }
@@ -155,17 +155,17 @@ TEST(a_list_has_its_own_classes)
         double values[200];
         for (size_t k = 0; k < cases[i].n; k++)
             values[k] = 20 + (double)k;
-        struct ceduo_observation_fit c = look(stops(cases[i].n, values));
+        struct ceduo_observation_fit c = compare(stops(cases[i].n, values));
         EXPECT(c.classes, ==, cases[i].classes);
         EXPECT(c.seen[0], ==, (double)cases[i].first);
         EXPECT(c.seen[c.classes - 1], ==, (double)cases[i].last);
     }
     double alike[10] = {30, 30, 30, 30, 30, 30, 30, 30, 30, 30};
-    EXPECT(look(stops(10, alike)).seen[0], ==, 10); /* equal values are not split */
+    EXPECT(compare(stops(10, alike)).seen[0], ==, 10); /* equal values are not split */
     double mostly[20];
     for (int i = 0; i < 20; i++)
         mostly[i] = i < 18 ? 30 : 31;
-    struct ceduo_observation_fit c = look(stops(20, mostly)); /* keep only classes with distinct bounds */
+    struct ceduo_observation_fit c = compare(stops(20, mostly)); /* keep only classes with distinct bounds */
     EXPECT(c.classes, ==, 2);
     EXPECT(c.seen[0], ==, 18);
     EXPECT(c.seen[1], ==, 2);
@@ -176,7 +176,7 @@ TEST(a_list_has_its_own_classes)
 /* Observe a mean with an error equal to its distance from the simulated mean, which has none: z = 1. */
 static void expect_mean(struct ceduo_observation o, double mean, double within)
 {
-    struct ceduo_observation_fit c = look(measured(o, 4, mean + 1, 2));
+    struct ceduo_observation_fit c = compare(measured(o, 4, mean + 1, 2));
     EXPECT(c.classes, ==, 0);
     EXPECT(c.rocks, ==, ROCKS);
     EXPECT_NEAR(c.mean, mean, within);
@@ -195,9 +195,9 @@ TEST(means_are_normal)
 {
     make_ground(0, HIGH, FAST, 0);
     double speed2 = FAST * FAST + GRAVITY * GRAVITY;
-    expect_mean(at(CEDUO_OBSERVED_SPEED, 10), sqrt(speed2), 1e-9);
-    expect_mean(at(CEDUO_OBSERVED_HEIGHT, 10), HIGH - GRAVITY / 2, 1e-9);
-    expect_mean(at(CEDUO_OBSERVED_ENERGY, 10), mass() * speed2 / 2, 1e-6);
+    expect_mean(observe_at(CEDUO_OBSERVED_SPEED, 10), sqrt(speed2), 1e-9);
+    expect_mean(observe_at(CEDUO_OBSERVED_HEIGHT, 10), HIGH - GRAVITY / 2, 1e-9);
+    expect_mean(observe_at(CEDUO_OBSERVED_ENERGY, 10), mass() * speed2 / 2, 1e-6);
 }
 
 /* If rocks differ, the error of the simulated mean counts as well. */
@@ -205,9 +205,9 @@ TEST(a_mean_has_the_error_of_both_sides)
 {
     make_ground(0, HIGH, FAST, 0);
     g.scene.release.vx.spread = 2;
-    struct ceduo_observation o = measured(at(CEDUO_OBSERVED_SPEED, 10), 400, 15, 2);
-    struct ceduo_observation_fit c = look(o);
-    LOCAL_BYTES double *values = values_of(&o, 1);
+    struct ceduo_observation o = measured(observe_at(CEDUO_OBSERVED_SPEED, 10), 400, 15, 2);
+    struct ceduo_observation_fit c = compare(o);
+    LOCAL_BYTES double *values = simulate_values(&o, 1);
     double mean = gsl_stats_mean(values, 1, ROCKS), variance = 0.01 + gsl_stats_variance(values, 1, ROCKS) / ROCKS;
     EXPECT(variance, >, 0.011);
     EXPECT_NEAR(c.variance, variance, 1e-12);
@@ -217,7 +217,7 @@ TEST(a_mean_has_the_error_of_both_sides)
 TEST(no_rock_there_is_impossible)
 {
     make_ground(0, HIGH, FAST, 0);
-    struct ceduo_observation_fit c = look(measured(at(CEDUO_OBSERVED_SPEED, 190), 4, 10, 2));
+    struct ceduo_observation_fit c = compare(measured(observe_at(CEDUO_OBSERVED_SPEED, 190), 4, 10, 2));
     EXPECT(c.rocks, ==, 0);
     EXPECT(c.log_likelihood, <, -1000);
 }
@@ -226,7 +226,8 @@ TEST(no_rock_there_is_impossible)
 
 TEST(the_maximum_is_at_an_end_or_a_top)
 {
-    struct ceduo_observation speed = something(CEDUO_OBSERVED_LARGEST_SPEED), height = something(CEDUO_OBSERVED_LARGEST_HEIGHT);
+    struct ceduo_observation speed = make_observation(CEDUO_OBSERVED_LARGEST_SPEED),
+                             height = make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT);
     make_ground(0, HIGH, FAST, 0);
     expect_mean(speed, sqrt(FAST * FAST + 2 * GRAVITY * HIGH), 1e-9);
     expect_mean(height, HIGH, 1e-9);
@@ -241,15 +242,15 @@ TEST(the_maximum_is_at_an_end_or_a_top)
 TEST(means_along_a_flight)
 {
     make_ground(0, HIGH, FAST, 0);
-    expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 10), HIGH - GRAVITY / 6, 1e-9);
-    expect_mean(along(CEDUO_OBSERVED_WAY_ENERGY, 0, 10), mass() / 2 * (FAST * FAST + GRAVITY * GRAVITY / 3), 1e-5);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 10), HIGH - GRAVITY / 6, 1e-9);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_ENERGY, 0, 10), mass() / 2 * (FAST * FAST + GRAVITY * GRAVITY / 3), 1e-5);
     double sum = 0; /* by Simpson's rule over small steps */
     for (int i = 0; i < 1000; i++)
         for (int k = 0; k < 3; k++) {
             double v = GRAVITY * (i + k / 2.0) / 1000;
             sum += (k == 1 ? 4 : 1) * sqrt(FAST * FAST + v * v) / 6000;
         }
-    expect_mean(along(CEDUO_OBSERVED_WAY_SPEED, 0, 10), sum, 1e-9);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_SPEED, 0, 10), sum, 1e-9);
 }
 
 /* The same in the other direction: back from 100 m over the last 10 m. */
@@ -257,9 +258,9 @@ TEST(a_flight_back)
 {
     make_ground(0, HIGH, -FAST, 0);
     g.scene.release.x = ceduo_number(100);
-    expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 90, 100), HIGH - GRAVITY / 6, 1e-9);
-    expect_mean(along(CEDUO_OBSERVED_WAY_ENERGY, 90, 100), mass() / 2 * (FAST * FAST + GRAVITY * GRAVITY / 3), 1e-5);
-    expect_mean(something(CEDUO_OBSERVED_LARGEST_HEIGHT), HIGH, 1e-9);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 90, 100), HIGH - GRAVITY / 6, 1e-9);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_ENERGY, 90, 100), mass() / 2 * (FAST * FAST + GRAVITY * GRAVITY / 3), 1e-5);
+    expect_mean(make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT), HIGH, 1e-9);
 }
 
 /* Over an edge at 10 m onto a slope of 1 in 2: highest above ground as the flight is parallel to the slope. */
@@ -271,13 +272,13 @@ TEST(a_flight_over_an_edge)
     make_ground(0, 5, v, 0);
     two[0] = two[1] = g.segment;
     g.scene.slope = (struct ceduo_slope){.vertices = 3, .x = x, .z = z, .segments = two, .segments_given = 2};
-    expect_mean(something(CEDUO_OBSERVED_LARGEST_HEIGHT), 5 - GRAVITY / 2 * top * top + (v * top - 10) / 2, 1e-9);
+    expect_mean(make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT), 5 - GRAVITY / 2 * top * top + (v * top - 10) / 2, 1e-9);
     double sum = 5 * top - GRAVITY / 6 * top * top * top + v / 4 * (top - edge) * (top - edge);
-    expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, v * top), sum / top, 1e-9);
-    expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 10), 5 - GRAVITY / 6 * edge * edge, 1e-9); /* up to the edge */
-    g.scene.release.x = ceduo_number(10);                                                      /* and back from it */
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 0, v * top), sum / top, 1e-9);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 10), 5 - GRAVITY / 6 * edge * edge, 1e-9); /* up to the edge */
+    g.scene.release.x = ceduo_number(10);                                                              /* and back from it */
     g.scene.release.vx = ceduo_number(-2);
-    expect_mean(something(CEDUO_OBSERVED_LARGEST_HEIGHT), 5, 1e-9);
+    expect_mean(make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT), 5, 1e-9);
 }
 
 /* A roll down 1 in 2 with friction 0.25: v² grows by 2 g (sin - mu cos) per metre of ground. */
@@ -285,11 +286,11 @@ TEST(means_along_a_roll)
 {
     double cosine = 2 / sqrt(5), sine = 1 / sqrt(5), gain = 2 * GRAVITY * (sine - 0.25 * cosine) / cosine;
     make_ground(100, 0, FAST * cosine, -FAST * sine);
-    expect_mean(along(CEDUO_OBSERVED_WAY_ENERGY, 0, 50), mass() / 2 * (FAST * FAST + gain * 25), 1e-4);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_ENERGY, 0, 50), mass() / 2 * (FAST * FAST + gain * 25), 1e-4);
     double end2 = FAST * FAST + gain * 50;
-    expect_mean(along(CEDUO_OBSERVED_WAY_SPEED, 0, 50), 2 / (3 * gain * 50) * (pow(end2, 1.5) - pow(FAST, 3)), 1e-6);
-    expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 50), 0, 1e-9);
-    EXPECT(look(measured(along(CEDUO_OBSERVED_WAY_HEIGHT, 300, 310), 3, 1, 1)).rocks, ==, 0); /* no rock arrives */
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_SPEED, 0, 50), 2 / (3 * gain * 50) * (pow(end2, 1.5) - pow(FAST, 3)), 1e-6);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 50), 0, 1e-9);
+    EXPECT(compare(measured(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 300, 310), 3, 1, 1)).rocks, ==, 0); /* no rock arrives */
 }
 
 /* From rest: the loss of height minus friction, m g (sin - mu cos)/cos per metre, is in speed and spin. */
@@ -300,9 +301,9 @@ TEST(a_roll_from_rest)
     for (size_t i = 0; i < 2; i++) {
         make_ground(100, 0, 0, 0);
         g.scene.simulation.law = laws[i];
-        expect_mean(along(CEDUO_OBSERVED_WAY_ENERGY, 0, 50), mass() * gain * 25, 1e-4);
+        expect_mean(observe_along(CEDUO_OBSERVED_WAY_ENERGY, 0, 50), mass() * gain * 25, 1e-4);
         double k = laws[i] == CEDUO_LAW_LUMPED ? 0 : 0.4; /* a sphere */
-        expect_mean(along(CEDUO_OBSERVED_WAY_SPEED, 0, 50), 2. / 3 * sqrt(2 * gain / (1 + k) * 50), 1e-6);
+        expect_mean(observe_along(CEDUO_OBSERVED_WAY_SPEED, 0, 50), 2. / 3 * sqrt(2 * gain / (1 + k) * 50), 1e-6);
     }
 }
 
@@ -310,8 +311,8 @@ TEST(a_roll_from_rest)
 TEST(a_fall)
 {
     make_ground(0, HIGH, 0, 0);
-    expect_mean(something(CEDUO_OBSERVED_LARGEST_HEIGHT), HIGH, 1e-9);
-    expect_mean(something(CEDUO_OBSERVED_LARGEST_SPEED), sqrt(2 * GRAVITY * HIGH), 1e-9);
+    expect_mean(make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT), HIGH, 1e-9);
+    expect_mean(make_observation(CEDUO_OBSERVED_LARGEST_SPEED), sqrt(2 * GRAVITY * HIGH), 1e-9);
 }
 
 /* ---- rocks equal those of a run ---- */
@@ -330,8 +331,8 @@ TEST(recorded_rocks_are_those_of_a_run)
 {
     make_rough();
     double one = 50;
-    struct ceduo_observation two[2] = {stops(1, &one), measured(something(CEDUO_OBSERVED_LARGEST_SPEED), 2, 1, 1)};
-    LOCAL_BYTES double *recorded = values_of(two, 2), *run = values_of(two, 1);
+    struct ceduo_observation two[2] = {stops(1, &one), measured(make_observation(CEDUO_OBSERVED_LARGEST_SPEED), 2, 1, 1)};
+    LOCAL_BYTES double *recorded = simulate_values(two, 2), *run = simulate_values(two, 1);
     assert_memory_equal(recorded, run, ROCKS * sizeof *run);
 }
 
@@ -340,9 +341,10 @@ TEST(recorded_crossings_are_those_of_a_run)
 {
     make_rough();
     for (int k = 0; k < 3; k++) {
-        struct ceduo_observation two[2] = {measured(at((enum ceduo_observed_kind)(CEDUO_OBSERVED_SPEED + k), 60), 2, 1, 1),
-                                           measured(something(CEDUO_OBSERVED_LARGEST_SPEED), 2, 1, 1)};
-        LOCAL_BYTES double *recorded = values_of(two, 2), *run = values_of(two, 1);
+        struct ceduo_observation two[2] = {
+            measured(observe_at((enum ceduo_observed_kind)(CEDUO_OBSERVED_SPEED + k), 60), 2, 1, 1),
+            measured(make_observation(CEDUO_OBSERVED_LARGEST_SPEED), 2, 1, 1)};
+        LOCAL_BYTES double *recorded = simulate_values(two, 2), *run = simulate_values(two, 1);
         size_t reached = 0;
         for (size_t i = 0; i < ROCKS; i++) {
             assert_int_equal(isnan(recorded[i]), isnan(run[i]));
@@ -366,12 +368,13 @@ TEST(observations_share_runs)
     struct ceduo_option options[2] = {g.option, g.option};
     small.diameter = ceduo_number(0.5);
     slow.vx = ceduo_number(FAST / 2);
-    options[1].belts = belt_of(1, (struct ceduo_stems){.per_ha = 1e5, .dbh = 1, .height = 100, .volume = 10, .age = NAN}, 1e7);
+    options[1].belts =
+        make_belt(1, (struct ceduo_stems){.per_ha = 1e5, .dbh = 1, .height = 100, .volume = 10, .age = NAN}, 1e7);
     options[1].belts_count = 1;
     g.scene.options = options;
     g.scene.options_count = 2;
     for (int i = 0; i < 6; i++)
-        o[i] = measured(at(i == 3 ? CEDUO_OBSERVED_SPEED : CEDUO_OBSERVED_ENERGY, i == 4 ? 5 : 10), 2, 1, 1);
+        o[i] = measured(observe_at(i == 3 ? CEDUO_OBSERVED_SPEED : CEDUO_OBSERVED_ENERGY, i == 4 ? 5 : 10), 2, 1, 1);
     o[1].rock = &small;
     o[2].release = &slow;
     o[5].option = 1;
@@ -391,7 +394,7 @@ TEST(observations_share_runs)
         }
     }
     g.scene.simulation.contact_model = CEDUO_INDEX;
-    struct ceduo_observation largest = something(CEDUO_OBSERVED_LARGEST_HEIGHT);
+    struct ceduo_observation largest = make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT);
     largest.option = 1;
     expect_mean(largest, HIGH, 1e-9);
 }
@@ -404,9 +407,9 @@ TEST(blocks_are_not_observed)
     make_ground(0, HIGH, FAST, 0);
     g.scene.blocks = &blocks;
     g.scene.blocks_count = 1;
-    struct ceduo_observation o = measured(at(CEDUO_OBSERVED_ENERGY, 10), 2, 1, 1);
+    struct ceduo_observation o = measured(observe_at(CEDUO_OBSERVED_ENERGY, 10), 2, 1, 1);
     o.rock = &g.scene.rock;
-    struct ceduo_observation_fit c = look(o);
+    struct ceduo_observation_fit c = compare(o);
     EXPECT_NEAR(c.mean, mass() * (FAST * FAST + GRAVITY * GRAVITY) / 2, 1e-6); /* after 1 s of free fall */
     EXPECT_NEAR(c.sd, 0, 1e-6);
 }
@@ -415,7 +418,7 @@ TEST(blocks_are_not_observed)
 TEST(an_invalid_scene_gives_no_comparison)
 {
     make_ground(0, HIGH, FAST, 0);
-    struct ceduo_observation o[2] = {at(CEDUO_OBSERVED_SPEED, 10), something(CEDUO_OBSERVED_LARGEST_SPEED)};
+    struct ceduo_observation o[2] = {observe_at(CEDUO_OBSERVED_SPEED, 10), make_observation(CEDUO_OBSERVED_LARGEST_SPEED)};
     struct ceduo_observer *observer;
     struct ceduo_observation_fit c[2];
     const atomic_bool cancelled = true;
@@ -439,9 +442,9 @@ TEST(scars_are_counted_and_measured)
 {
     const struct ceduo_stems tree = {.per_ha = 400, .dbh = 0.2, .height = 15, .volume = 0.2, .age = NAN};
     make_ground(80, 0, 5, -2);
-    g.option.belts = belt_of(0, tree, 1000);
+    g.option.belts = make_belt(0, tree, 1000);
     g.option.belts_count = 1;
-    struct ceduo_observation o = along(CEDUO_OBSERVED_SCARS, 20, 60);
+    struct ceduo_observation o = observe_along(CEDUO_OBSERVED_SCARS, 20, 60);
     double heights[3] = {0.4, 0.5, 0.6};
     o.n = 3;
     o.values = heights;
@@ -455,20 +458,20 @@ TEST(scars_are_counted_and_measured)
         sum += of[i];
         square += of[i] * of[i];
     }
-    struct ceduo_observation_fit heights_alone = look(o);
+    struct ceduo_observation_fit heights_alone = compare(o);
     EXPECT(sum, >, 20);
     EXPECT((double)heights_alone.rocks, ==, sum);
     EXPECT_NEAR(heights_alone.mean, 0.5, 0.05); /* rolling rocks: their centre is half a metre above ground */
     assert_true(isnan(heights_alone.scars));
     o.of = 10;
     o.share_seen = 0.75;
-    struct ceduo_observation_fit c = look(o);
+    struct ceduo_observation_fit c = compare(o);
     double mean = sum / ROCKS, variance = (square - sum * mean) / (ROCKS - 1);
     double expected = 10 * mean * 0.75, spread = 0.75 * 0.75 * variance * 10 * 1.1 + 10 * mean * 0.75 * 0.25;
     EXPECT_NEAR(c.scars, expected, 1e-9);
     EXPECT_NEAR(c.deviance - heights_alone.deviance, (3 - expected) * (3 - expected) / spread, 1e-9);
     o.share_seen = NAN; /* unknown: all of them */
-    EXPECT_NEAR(look(o).scars, 10 * mean, 1e-9);
+    EXPECT_NEAR(compare(o).scars, 10 * mean, 1e-9);
     ceduo_record_release(&record);
     atomic_bool cancelled = true;
     def.cancel = &cancelled;
@@ -487,7 +490,7 @@ TEST(stems_stop_rocks_at_their_place)
 {
     const struct ceduo_stems tree = {.per_ha = 1e5, .dbh = 1, .height = 15, .volume = 10, .age = NAN};
     make_ground(80, 0, 5, -2);
-    g.option.belts = belt_of(1, tree, 1e7);
+    g.option.belts = make_belt(1, tree, 1e7);
     g.option.belts_count = 1;
     LOCAL_BY(ceduo_record_release) struct ceduo_record record;
     const struct ceduo_record_def def = {.scene = &g.scene, .option = &g.option, .rocks = 5, .blows = true};

@@ -164,7 +164,7 @@ TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
     }
 }
 
-static void say_answer(struct text *text, size_t at, size_t width)
+static void print_answer(struct text *text, size_t at, size_t width)
 {
     const struct ceduo_report report = {.result = &result, .verdict = &verdict};
     const struct ceduo_subject subject = ceduo_subject_find(&report, 0, at);
@@ -179,7 +179,7 @@ TEST_WITH(an_impossible_stand_supports_no_yes, open_site, NULL)
     set_failing(0, 0, 0);
     struct ceduo_outcome o = judge(false);
     EXPECT_IS(o, (answer, CEDUO_NOTHING), (impossible, true));
-    say_answer(&text, 0, 200);
+    print_answer(&text, 0, 200);
     assert_non_null(strstr(text.bytes, "more stems than a forest can hold"));
     set_failing(17, 15, 19);
     assert_int_equal(judge(false).answer, CEDUO_NO);
@@ -194,7 +194,7 @@ TEST_WITH(an_impossible_stand_supports_no_yes, open_site, NULL)
 static void expect_words(size_t at, size_t width, const char *wanted)
 {
     LOCAL_TEXT(text);
-    say_answer(&text, at, width);
+    print_answer(&text, at, width);
     assert_string_equal(text.bytes, wanted);
 }
 

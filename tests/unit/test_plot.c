@@ -82,7 +82,7 @@ static bool shows(enum ceduo_plot plot, int width, int height, const char *words
 }
 
 /* Count the cells of a role. */
-static int cells_of(const struct ceduo_cells *cells, enum ceduo_role role)
+static int count_cells(const struct ceduo_cells *cells, enum ceduo_role role)
 {
     int n = 0;
     for (int row = 0; row < cells->height; row++)
@@ -235,14 +235,14 @@ TEST_BARE(span_gives_the_position_of_the_slope)
 TEST_BARE(the_selected_trajectory_is_drawn_on_top)
 {
     struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, 60, 20, BRAILLE);
-    assert_int_equal(cells_of(cells, CEDUO_ROLE_WAY), 0);
-    assert_true(cells_of(cells, CEDUO_ROLE_STEM) > 5);
-    assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
-    assert_true(cells_of(cells, CEDUO_ROLE_CLOUD) > 0);
+    assert_int_equal(count_cells(cells, CEDUO_ROLE_WAY), 0);
+    assert_true(count_cells(cells, CEDUO_ROLE_STEM) > 5);
+    assert_true(count_cells(cells, CEDUO_ROLE_STOOL) > 5);
+    assert_true(count_cells(cells, CEDUO_ROLE_CLOUD) > 0);
     ceduo_cells_free(cells);
     p.selected = &s.line;
     cells = draw(CEDUO_PLOT_PROFILE, 60, 20, BRAILLE);
-    assert_true(cells_of(cells, CEDUO_ROLE_WAY) > 10);
+    assert_true(count_cells(cells, CEDUO_ROLE_WAY) > 10);
     ceduo_cells_free(cells);
 }
 
@@ -250,12 +250,12 @@ TEST_WOODED(unknown_trajectories_are_not_drawn)
 {
     s.wooded[0] = NULL;
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, 60, 16, BRAILLE);
-    assert_int_equal(cells_of(cells, CEDUO_ROLE_CLOUD), 0);
-    assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
+    assert_int_equal(count_cells(cells, CEDUO_ROLE_CLOUD), 0);
+    assert_true(count_cells(cells, CEDUO_ROLE_STOOL) > 5);
 }
 
 /* Return the rows of a column that hold dots of a role. */
-static int rows_of(const struct ceduo_cells *cells, int column, enum ceduo_role role)
+static int find_rows(const struct ceduo_cells *cells, int column, enum ceduo_role role)
 {
     int n = 0;
     for (int row = 0; row < cells->height; row++)
@@ -274,11 +274,11 @@ TEST_WOODED(stems_met_by_the_rock_keep_their_place)
     p.span = &span;
     ceduo_plot_draw(CEDUO_PLOT_PROFILE, &cells->canvas, &area, &p);
     double metres = (span.x1 - span.x0) / (2 * span.width - 1); /* size of a dot in both directions */
-    assert_int_equal(cells_of(cells, CEDUO_ROLE_STOOL), 0);
+    assert_int_equal(count_cells(cells, CEDUO_ROLE_STOOL), 0);
     for (int i = 0; i < 4; i++) {
         int column = span.left + (int)lround((passed[i].x - span.x0) / metres) / 2;
         double rows = passed[i].height / metres / 4;
-        int found = rows_of(cells, column, passed[i].hit ? CEDUO_ROLE_STEM : CEDUO_ROLE_DIM);
+        int found = find_rows(cells, column, passed[i].hit ? CEDUO_ROLE_STEM : CEDUO_ROLE_DIM);
         assert_true(found >= rows - 2 && found <= rows + 1);
     }
     expect(CEDUO_PLOT_PROFILE, 84, 20, ASCII, "stems-met-by-the-rock-keep-their-place");
@@ -293,7 +293,7 @@ TEST_WOODED(logs_are_not_in_the_plan)
     p.stems = logs;
     p.stems_count = 3;
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, 84, 40, BRAILLE);
-    assert_in_range(cells_of(cells, CEDUO_ROLE_STEM), 2, 4); /* two lie on the profile */
+    assert_in_range(count_cells(cells, CEDUO_ROLE_STEM), 2, 4); /* two lie on the profile */
     assert_true(shows(CEDUO_PLOT_STAND, 84, 20, "One pattern of many"));
 }
 
@@ -303,8 +303,8 @@ TEST_WOODED(logs_are_not_in_the_plan)
 TEST_WOODED(strips_compare_forest_and_bare_slope)
 {
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 16, BRAILLE);
-    assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
-    assert_true(cells_of(cells, CEDUO_ROLE_BARE) > 30);
+    assert_true(count_cells(cells, CEDUO_ROLE_WOOD) > 30);
+    assert_true(count_cells(cells, CEDUO_ROLE_BARE) > 30);
 }
 
 /* If four curves do not fit: the most important one, with and without forest. */
@@ -343,8 +343,8 @@ TEST_WOODED(strips_without_wooded_rocks)
     s.wooded[0] = NULL;
     p.option = 1; /* no stems: both runs are one, drawn solid */
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 8, BRAILLE);
-    assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
-    assert_in_range(cells_of(cells, CEDUO_ROLE_BARE), 13, 20); /* 13 are in the words */
+    assert_true(count_cells(cells, CEDUO_ROLE_WOOD) > 30);
+    assert_in_range(count_cells(cells, CEDUO_ROLE_BARE), 13, 20); /* 13 are in the words */
 }
 
 TEST_BARE(strips_share_the_profiles_columns)
@@ -402,8 +402,8 @@ TEST_BARE(stems_met_lie_in_the_strip_of_the_rock)
             assert_false(role == CEDUO_ROLE_WAY && off > 1.6 + 0.3);
             assert_false(role == CEDUO_ROLE_STEM && off < 1.5 - 0.3);
         }
-    assert_true(cells_of(cells, CEDUO_ROLE_WAY) > 10);
-    assert_true(cells_of(cells, CEDUO_ROLE_STEM) > 50);
+    assert_true(count_cells(cells, CEDUO_ROLE_WAY) > 10);
+    assert_true(count_cells(cells, CEDUO_ROLE_STEM) > 50);
 }
 
 /* 20 m around the last stem of the belt, offsets scaled so that the strip fills the picture. */
@@ -412,9 +412,9 @@ TEST_WOODED(the_stand_shows_the_trajectory_of_the_rock)
     p.stems = passed;
     p.stems_count = 3;
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_STAND, 60, 14, BRAILLE);
-    assert_true(cells_of(cells, CEDUO_ROLE_WAY) >= 2);
-    assert_true(cells_of(cells, CEDUO_ROLE_DIM) >= 1);
-    assert_int_equal(cells_of(cells, CEDUO_ROLE_STEM) + cells_of(cells, CEDUO_ROLE_STOOL), 0);
+    assert_true(count_cells(cells, CEDUO_ROLE_WAY) >= 2);
+    assert_true(count_cells(cells, CEDUO_ROLE_DIM) >= 1);
+    assert_int_equal(count_cells(cells, CEDUO_ROLE_STEM) + count_cells(cells, CEDUO_ROLE_STOOL), 0);
 }
 
 TEST_BARE(a_dense_stand_is_drawn_in_time)

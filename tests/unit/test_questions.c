@@ -9,7 +9,7 @@
 
 static struct paper_site site;
 
-static struct ceduo_request question_of(uint64_t rocks)
+static struct ceduo_request make_request(uint64_t rocks)
 {
     paper_site_init(&site);
     struct ceduo_request q = ceduo_request_default(&site.scene);
@@ -20,7 +20,7 @@ static struct ceduo_request question_of(uint64_t rocks)
 /* Stands and index need no rocks, with or without a requested precision. */
 TEST(stands_need_no_rocks)
 {
-    struct ceduo_request q = question_of(0);
+    struct ceduo_request q = make_request(0);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     q.tolerance = .1;
     q.years = true;
@@ -50,7 +50,7 @@ static void expect_yields_alone(const struct ceduo_results *answer)
 TEST(nothing_is_counted_without_a_control)
 {
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
-        struct ceduo_request q = question_of(20);
+        struct ceduo_request q = make_request(20);
         LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
         site.scene.controls_count = 0;
@@ -69,7 +69,7 @@ TEST(nothing_is_counted_without_a_control)
 /* All runs exist from the previous request: only the other sizes are simulated, and they are cancelled. */
 TEST(other_sizes_are_cancelled)
 {
-    struct ceduo_request q = question_of(20);
+    struct ceduo_request q = make_request(20);
     LOCAL(ceduo_pool, pool) = NULL;
     struct ceduo_results answer;
     atomic_bool cancel = true;
@@ -91,7 +91,7 @@ TEST(other_sizes_are_cancelled)
 /* One of two options is requested; the cost of the other's rocks is unknown. */
 TEST(other_sizes_of_one_option)
 {
-    struct ceduo_request q = question_of(50);
+    struct ceduo_request q = make_request(50);
     struct ceduo_option options[2] = {site.option, site.option};
     struct ceduo_results answers[2];
     site.scene.options = options;
@@ -112,7 +112,7 @@ TEST(the_worst_control_decides_a_goal)
 {
     const double accepted[][2] = {{50e3, 50e3}, {NAN, 50e3}, {50e3, NAN}};
     for (size_t i = 0; i < LENGTH(accepted); i++) {
-        struct ceduo_request q = question_of(200);
+        struct ceduo_request q = make_request(200);
         LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
         struct ceduo_control controls[2] = {site.control, site.control};
         controls[0].x = controls[0].x_given = 20;
@@ -134,7 +134,7 @@ TEST(the_worst_control_decides_a_goal)
 /* Between two equal options the difference is 0 without error. */
 TEST(options_that_are_the_same)
 {
-    struct ceduo_request q = question_of(200);
+    struct ceduo_request q = make_request(200);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     struct ceduo_option options[2] = {site.option, site.option};
     site.control.accepted = 1e12;
@@ -150,7 +150,7 @@ TEST(options_that_are_the_same)
 /* Two objects at one place: the same rocks arrive, and each has its own limit. */
 TEST(controls_at_one_place)
 {
-    struct ceduo_request q = question_of(200);
+    struct ceduo_request q = make_request(200);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     struct ceduo_control controls[2] = {site.control, site.control};
     controls[1].accepted = 0;
@@ -167,7 +167,7 @@ TEST(controls_at_one_place)
 /* Years without rocks have no share, so no difference. */
 TEST(years_without_rocks_have_no_difference)
 {
-    struct ceduo_request q = question_of(50);
+    struct ceduo_request q = make_request(50);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     LOCAL(ceduo_years, none);
     q.years = true;

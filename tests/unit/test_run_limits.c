@@ -96,7 +96,7 @@ TEST(a_rock_without_end)
     site.scene.release =
         (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    LOCAL(ceduo_run, run) = run_of(&def, 1);
+    LOCAL(ceduo_run, run) = make_run(&def, 1);
     struct ceduo_arrivals a;
     struct ceduo_envelope e;
     assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
@@ -158,9 +158,9 @@ TEST(differences_of_blocks)
     struct ceduo_run_def bare = ceduo_run_def_default(&site.scene), wood = bare;
     wood.option = &site.option;
     double none[1];
-    struct ceduo_run *few = run_of(&wood, 50), *many = run_of(&wood, 120), *least = run_of(&bare, 50),
-                     *most = run_of(&bare, 120);
-    struct ceduo_run *empty = run_of(&bare, 0);
+    struct ceduo_run *few = make_run(&wood, 50), *many = make_run(&wood, 120), *least = make_run(&bare, 50),
+                     *most = make_run(&bare, 120);
+    struct ceduo_run *empty = make_run(&bare, 0);
     struct ceduo_difference wanted = ceduo_run_difference(few, least, 0);
     EXPECT(wanted.energy_per_released.mean, <, 0);
     struct ceduo_difference first = ceduo_run_difference(few, most, 0), second = ceduo_run_difference(many, least, 0);
@@ -186,7 +186,7 @@ TEST(energies_of_blocks_are_even_quantiles)
     site.scene.blocks_count = 1;
     struct ceduo_run_def wood = ceduo_run_def_default(&site.scene);
     wood.option = &site.option;
-    LOCAL(ceduo_run, run) = run_of(&wood, ROCKS);
+    LOCAL(ceduo_run, run) = make_run(&wood, ROCKS);
     const double *all = ceduo_run_samples(run, 0, CEDUO_SAMPLE_ENERGY);
     EXPECT(ceduo_run_energies(run, 0, some, MOST), ==, MOST);
     const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
@@ -214,7 +214,7 @@ TEST(group_means_equal_the_statistics)
         site.scene.blocks = &blocks;
         site.scene.blocks_count = i / 2 == 1;
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        LOCAL(ceduo_run, run) = run_of(&def, 300);
+        LOCAL(ceduo_run, run) = make_run(&def, 300);
         struct ceduo_group_means brief;
         struct ceduo_arrivals a;
         ceduo_run_group_means(run, 0, 1, &brief);
@@ -234,7 +234,7 @@ TEST(years_before_they_are_flown)
     paper_site_init(&site);
     site.scene.simulation.rocks = 20;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    LOCAL(ceduo_run, run) = run_of(&def, 20);
+    LOCAL(ceduo_run, run) = make_run(&def, 20);
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare;
     LOCAL(ceduo_years, years);
     assert_int_equal(ceduo_simulated_read(run, 1, &bare), CEDUO_OK);
@@ -261,7 +261,7 @@ static struct ceduo_run *held_rocks(void)
         (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.threads = 0; /* means 1 */
-    return run_of(&def, 300);
+    return make_run(&def, 300);
 }
 
 TEST(places_that_no_rock_reaches)
@@ -300,7 +300,7 @@ TEST(energies_of_the_stored_arrivals)
     paper_site_init(&site);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.rocks_most = 300;
-    LOCAL(ceduo_run, run) = run_of(&def, 0);
+    LOCAL(ceduo_run, run) = make_run(&def, 0);
     assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
     assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
     assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 8);
@@ -313,10 +313,10 @@ TEST(a_run_allocates_twice)
     site.scene.simulation.rocks = 300;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     struct ceduo_arrivals steps, once;
-    LOCAL(ceduo_run, two) = run_of(&def, 200);
+    LOCAL(ceduo_run, two) = make_run(&def, 200);
     assert_int_equal(ceduo_run_extend(two, 300), CEDUO_OK);
     assert_int_equal(ceduo_run_arrivals(two, 0, &steps), CEDUO_OK);
-    LOCAL(ceduo_run, one) = run_of(&def, 300);
+    LOCAL(ceduo_run, one) = make_run(&def, 300);
     assert_int_equal(ceduo_run_arrivals(one, 0, &once), CEDUO_OK);
     EXPECT(steps.reached, >, 0);
     assert_memory_equal(&steps, &once, sizeof steps);
@@ -329,7 +329,7 @@ TEST(ends_without_a_control)
     site.scene.controls_count = 0;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     struct ceduo_ends ends;
-    LOCAL(ceduo_run, run) = run_of(&def, 300);
+    LOCAL(ceduo_run, run) = make_run(&def, 300);
     assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
     uint64_t all = 0;
     for (int e = 0; e < CEDUO_ENDS; e++)

@@ -128,7 +128,7 @@ struct ending {
     enum ceduo_calibration_stage stage;
 };
 
-static void cancel_at(void *context, const struct ceduo_calibration_state *state)
+static void cancel_at_stage(void *context, const struct ceduo_calibration_state *state)
 {
     struct ending *e = context;
     if (state->stage >= e->stage)
@@ -155,7 +155,7 @@ static void make_flight(struct flight *f, double v, double sd)
         .kind = CEDUO_OBSERVED_LARGEST_SPEED, .n = 5, .mean = hypot(v, sqrt(2 * 9.81 * 100)), .sd = sd};
 }
 
-static struct ceduo_calibration_def fit_of(const struct ceduo_calibration_scene *scenes, size_t n, size_t parameters)
+static struct ceduo_calibration_def run_fit(const struct ceduo_calibration_scene *scenes, size_t n, size_t parameters)
 {
     return (struct ceduo_calibration_def){
         .scenes_count = n, .scenes = scenes, .parameters_count = parameters, .rocks = 2, .seed = 1, .threads = 1};
@@ -167,11 +167,11 @@ TEST(a_fit_can_be_stopped)
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
     const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
-    struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
+    struct ceduo_calibration_def def = run_fit(&fitted, 1, 1);
     struct ceduo_calibration a;
     struct ending e;
     def.cancel = &e.cancelled;
-    def.progress = cancel_at;
+    def.progress = cancel_at_stage;
     def.context = &e;
     for (int stage = CEDUO_SEARCH; stage <= CEDUO_CHAINS; stage++) {
         e = (struct ending){false, (enum ceduo_calibration_stage)stage};
@@ -188,7 +188,7 @@ TEST(a_fit_of_few_steps)
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
     const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
-    struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
+    struct ceduo_calibration_def def = run_fit(&fitted, 1, 1);
     struct ceduo_calibration a;
     def.steps_most = 2 * 50 + 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
@@ -202,7 +202,7 @@ TEST(a_fit_of_few_steps)
     ceduo_calibration_free(&a);
     struct ending e = {false, CEDUO_CHAINS};
     def.cancel = &e.cancelled;
-    def.progress = cancel_at;
+    def.progress = cancel_at_stage;
     def.context = &e;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_CANCELLED);
 }
@@ -213,7 +213,7 @@ TEST(two_values_without_draws)
     const struct ceduo_input inputs[2] = {range(&speed, 5, 15), range(&place, 0, 50)};
     make_flight(&flights[0], 10, 0.1);
     const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, inputs, 1, &flights[0].seen};
-    struct ceduo_calibration_def def = fit_of(&fitted, 1, 2);
+    struct ceduo_calibration_def def = run_fit(&fitted, 1, 2);
     LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
     def.steps_most = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
@@ -243,12 +243,12 @@ TEST(a_place_exists_in_both_scenes)
         segments[i] = flights[1].ground.segment;
     flights[1].ground.scene.slope =
         (struct ceduo_slope){.vertices = 4, .x = x, .z = z, .segments = segments, .segments_given = 3};
-    struct ceduo_calibration_def def = fit_of(fitted, 2, 1);
+    struct ceduo_calibration_def def = run_fit(fitted, 2, 1);
     def.steps_most = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.parameters[0].best, <, 30);
     ceduo_calibration_free(&a);
-    def = fit_of(&fitted[1], 1, 1);
+    def = run_fit(&fitted[1], 1, 1);
     def.steps_most = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.parameters[0].best, >, 40);
@@ -264,7 +264,7 @@ TEST(half_of_the_draws_at_a_bound)
     for (int i = 0; i < 2; i++) {
         make_flight(&flights[0], v[i], 0.01);
         const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
-        struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
+        struct ceduo_calibration_def def = run_fit(&fitted, 1, 1);
         LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
         def.steps_most = 251;
         EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);

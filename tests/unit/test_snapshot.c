@@ -24,7 +24,7 @@ static int by_index(void **state)
 }
 
 /* Simulate the runs of the scene. */
-static struct ceduo_pool *pool_of(uint64_t rocks)
+static struct ceduo_pool *simulate_pool(uint64_t rocks)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&s.scene);
     struct ceduo_pool *pool;
@@ -35,7 +35,7 @@ static struct ceduo_pool *pool_of(uint64_t rocks)
     return pool;
 }
 
-static struct ceduo_snapshot *snapshot_of(const struct ceduo_snapshot_def *def)
+static struct ceduo_snapshot *make_snapshot(const struct ceduo_snapshot_def *def)
 {
     struct ceduo_snapshot *o;
     assert_int_equal(ceduo_snapshot_create(def, &o), CEDUO_OK);
@@ -43,16 +43,17 @@ static struct ceduo_snapshot *snapshot_of(const struct ceduo_snapshot_def *def)
 }
 
 /* Take a snapshot of one pool. */
-static struct ceduo_snapshot *snapshot_at(struct ceduo_pool *pool, size_t trajectories)
+static struct ceduo_snapshot *make_pool_snapshot(struct ceduo_pool *pool, size_t trajectories)
 {
-    return snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .runs = pool, .trajectories = trajectories});
+    return make_snapshot(&(struct ceduo_snapshot_def){.scene = &s.scene, .runs = pool, .trajectories = trajectories});
 }
 
 TEST_WITH(envelopes_start_after_the_release, by_index, NULL)
 {
     s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_UNIFORM};
-    LOCAL(ceduo_pool, pool) = pool_of(10);
-    LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .runs = pool, .envelope_rocks = 10});
+    LOCAL(ceduo_pool, pool) = simulate_pool(10);
+    LOCAL(ceduo_snapshot, o) =
+        make_snapshot(&(struct ceduo_snapshot_def){.scene = &s.scene, .runs = pool, .envelope_rocks = 10});
     assert_int_equal(o->cells, CEDUO_SNAPSHOT_CELLS);
     for (size_t i = 0; i < o->cells; i++) {
         EXPECT(o->cell_x[i], >, i > 0 ? o->cell_x[i - 1] : 12);
@@ -60,7 +61,7 @@ TEST_WITH(envelopes_start_after_the_release, by_index, NULL)
     }
 }
 
-static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ceduo_run *run)
+static void expect_trajectories(const struct ceduo_run_snapshot *sight, const struct ceduo_run *run)
 {
     assert_non_null(sight);
     assert_int_equal(sight->flown.rocks, ceduo_run_rocks(run));
@@ -83,14 +84,14 @@ static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ce
 
 TEST_WITH(a_snapshot_equals_its_runs, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300);
-    LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){
+    LOCAL(ceduo_pool, pool) = simulate_pool(300);
+    LOCAL(ceduo_snapshot, o) = make_snapshot(&(struct ceduo_snapshot_def){
         .scene = &s.scene, .runs = pool, .envelope_rocks = CEDUO_ENVELOPE_ROCKS, .trajectories = 20});
     assert_int_equal(o->cells, CEDUO_SNAPSHOT_CELLS);
     assert_int_equal(o->controls, 2);
     assert_int_equal(o->options, 2);
-    expect_sight(o->bare, ceduo_pool_find(pool, NULL));
-    expect_sight(o->wooded[0], ceduo_pool_find(pool, &s.options[0]));
+    expect_trajectories(o->bare, ceduo_pool_find(pool, NULL));
+    expect_trajectories(o->wooded[0], ceduo_pool_find(pool, &s.options[0]));
     EXPECT(o->wooded[0]->flown.arrivals[1].reached, <, o->bare->flown.arrivals[1].reached);
     assert_int_equal(o->bare->trajectories_count, 20);
     assert_int_equal(o->wooded[0]->trajectories_count, 20);
@@ -103,8 +104,8 @@ TEST_WITH(a_snapshot_equals_its_runs, wooded, NULL)
 /* Without stems the rocks are those without forest: the same trajectories, simulated once. */
 TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300);
-    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
+    LOCAL(ceduo_pool, pool) = simulate_pool(300);
+    LOCAL(ceduo_snapshot, o) = make_pool_snapshot(pool, 0);
     assert_int_equal(ceduo_pool_work(pool).runs, 2);
     assert_ptr_equal(o->wooded[1], o->bare);
     assert_ptr_not_equal(o->wooded[0], o->bare);
@@ -118,8 +119,8 @@ TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
 /* The contact model index has one set of trajectories for all options. */
 TEST_WITH(the_index_shows_the_bare_slope, by_index, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300);
-    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
+    LOCAL(ceduo_pool, pool) = simulate_pool(300);
+    LOCAL(ceduo_snapshot, o) = make_pool_snapshot(pool, 0);
     assert_int_equal(ceduo_pool_work(pool).runs, 1);
     assert_null(o->wooded[0]);
     assert_null(o->wooded[1]);
@@ -136,11 +137,11 @@ TEST_WITH(runs_not_simulated_are_unknown, wooded, NULL)
     assert_int_equal(ceduo_pool_create(&run_def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_run(pool, NULL, &run), CEDUO_OK);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool};
-    struct ceduo_snapshot *o = snapshot_of(&def);
+    struct ceduo_snapshot *o = make_snapshot(&def);
     assert_null(o->bare);
     ceduo_snapshot_free(o);
     assert_int_equal(ceduo_pool_extend(pool, 100), CEDUO_OK);
-    o = snapshot_of(&def);
+    o = make_snapshot(&def);
     assert_non_null(o->bare);
     assert_null(o->wooded[0]);
     assert_ptr_equal(o->wooded[1], o->bare);
@@ -152,14 +153,14 @@ TEST_WITH(runs_not_simulated_are_unknown, wooded, NULL)
 /* Envelopes use the requested number of rocks, or those of the last snapshot if it has enough. */
 TEST_WITH(envelopes_are_kept, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300);
+    LOCAL(ceduo_pool, pool) = simulate_pool(300);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .envelope_rocks = 400};
     const uint64_t rocks[] = {300, 400, 400};
     struct ceduo_snapshot *o[3];
     for (int i = 0; i < 3; i++) {
         assert_int_equal(ceduo_pool_extend(pool, 300 * (uint64_t)(i + 1)), CEDUO_OK);
         def.last = i > 0 ? o[i - 1] : NULL;
-        o[i] = snapshot_of(&def);
+        o[i] = make_snapshot(&def);
         assert_int_equal(o[i]->bare->flown.rocks, 300 * (i + 1));
         assert_int_equal(o[i]->bare->envelope_rocks, rocks[i]);
         assert_int_equal(o[i]->bare->envelopes[0].passed, rocks[i]);
@@ -174,8 +175,8 @@ TEST_WITH(a_changed_forest_shows_its_former_state, wooded, NULL)
 {
     static struct site b;
     wooded_site_init(&b);
-    LOCAL(ceduo_pool, pool) = pool_of(100);
-    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
+    LOCAL(ceduo_pool, pool) = simulate_pool(100);
+    LOCAL(ceduo_snapshot, o) = make_pool_snapshot(pool, 0);
     struct ceduo_option options[4] = {b.options[0], b.options[1], s.options[0], b.options[0]};
     b.scene.options = options;
     b.belts[0].stand.u = 50e3;
@@ -196,18 +197,18 @@ TEST(snapshots_share_unchanged_data)
         wooded_site_init(&b);
         b.belts[1].stand = b.belts[0].stand; /* unlike the other */
         b.belts[1].stand.shoots_count = 0;
-        struct ceduo_pool *pool = pool_of(300);
+        struct ceduo_pool *pool = simulate_pool(300);
         struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .trajectories = 5};
-        struct ceduo_snapshot *first = snapshot_of(&def);
+        struct ceduo_snapshot *first = make_snapshot(&def);
         ceduo_pool_set_scene(pool, &b.scene);
         def.scene = &b.scene;
         def.last = first;
-        struct ceduo_snapshot *early = snapshot_of(&def);
+        struct ceduo_snapshot *early = make_snapshot(&def);
         assert_null(early->wooded[1]);
         assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
         assert_int_equal(ceduo_pool_extend(pool, 300), CEDUO_OK);
         def.last = early;
-        struct ceduo_snapshot *second = snapshot_of(&def);
+        struct ceduo_snapshot *second = make_snapshot(&def);
         assert_ptr_equal(second->bare, first->bare);
         assert_ptr_equal(second->wooded[0], first->wooded[0]);
         assert_non_null(second->wooded[1]);
@@ -226,12 +227,12 @@ TEST(snapshots_share_unchanged_data)
 
 TEST_WITH(longer_runs_are_read_again, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(300);
+    LOCAL(ceduo_pool, pool) = simulate_pool(300);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool};
-    LOCAL(ceduo_snapshot, first) = snapshot_of(&def);
+    LOCAL(ceduo_snapshot, first) = make_snapshot(&def);
     assert_int_equal(ceduo_pool_extend(pool, 301), CEDUO_OK);
     def.last = first;
-    LOCAL(ceduo_snapshot, second) = snapshot_of(&def);
+    LOCAL(ceduo_snapshot, second) = make_snapshot(&def);
     assert_ptr_not_equal(second->bare, first->bare);
     assert_ptr_not_equal(second->wooded[0], first->wooded[0]);
     assert_int_equal(second->wooded[0]->flown.rocks, 301);
@@ -240,8 +241,8 @@ TEST_WITH(longer_runs_are_read_again, wooded, NULL)
 /* Trajectories start and end with the rock, never run far below ground, and never jump. */
 TEST_WITH(trajectories_follow_the_rocks, wooded, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(20);
-    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 20);
+    LOCAL(ceduo_pool, pool) = simulate_pool(20);
+    LOCAL(ceduo_snapshot, o) = make_pool_snapshot(pool, 20);
     uint64_t hit = 0;
     for (uint64_t i = 0; i < 40; i++) {
         const struct ceduo_option *option = i % 2 ? &s.options[0] : NULL;
@@ -266,8 +267,8 @@ TEST_WITH(flights_are_sampled_finely, by_index, NULL)
 {
     s.scene.release.vx = ceduo_number(10);
     s.scene.release.vz = ceduo_number(10);
-    LOCAL(ceduo_pool, pool) = pool_of(1);
-    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
+    LOCAL(ceduo_pool, pool) = simulate_pool(1);
+    LOCAL(ceduo_snapshot, o) = make_pool_snapshot(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     size_t checked = 0;
     for (size_t i = 1; i < t.n && t.x[i] < 20; i++, checked++) {
@@ -293,8 +294,8 @@ static int endless(void **state)
 
 TEST_WITH(an_endless_trajectory_is_drawn_partly, endless, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(1);
-    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
+    LOCAL(ceduo_pool, pool) = simulate_pool(1);
+    LOCAL(ceduo_snapshot, o) = make_pool_snapshot(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     struct ceduo_trajectory way;
     assert_int_equal(ceduo_trajectory_follow(&s.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
@@ -308,12 +309,12 @@ TEST_WITH(an_endless_trajectory_is_drawn_partly, endless, NULL)
 TEST_WITH(an_endless_trajectory_can_be_cancelled, endless, NULL)
 {
     atomic_bool cancel = true;
-    LOCAL(ceduo_pool, pool) = pool_of(1);
+    LOCAL(ceduo_pool, pool) = simulate_pool(1);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool, .trajectories = 1, .cancel = &cancel};
     LOCAL(ceduo_snapshot, o);
     assert_int_equal(ceduo_snapshot_create(&def, &o), CEDUO_CANCELLED);
     assert_null(o);
     cancel = false;
-    o = snapshot_of(&def);
+    o = make_snapshot(&def);
     assert_int_equal(o->bare->trajectories_count, 1);
 }

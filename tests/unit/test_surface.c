@@ -31,7 +31,7 @@ static double tilt;  /* additional effect of the first input in every second gro
 static bool still;   /* the last input is constant */
 
 /* Fit values of the function plus noise. */
-static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uint64_t seed, double noise)
+static struct ceduo_surface_fit fit_function(function *f, size_t n, size_t points, uint64_t seed, double noise)
 {
     double *u = malloc(points * n * sizeof *u);
     struct ceduo_replicates *y = malloc(points * sizeof *y);
@@ -72,7 +72,7 @@ static double linear(const double *u, size_t n)
 TEST(linear_functions_are_exact)
 {
     make_inputs(12, 0, 0);
-    struct ceduo_surface_fit f = fit_of(linear, 12, 256, 1, 0);
+    struct ceduo_surface_fit f = fit_function(linear, 12, 256, 1, 0);
     for (size_t i = 0; i < 12; i++) {
         double share = (double)((i + 1) * (i + 1)) / 650; /* sum of squares from 1 to 12 */
         EXPECT_NEAR(f.first[i].value, share, 1e-6);
@@ -96,7 +96,7 @@ static double quadratic(const double *u, size_t n)
 TEST(quadratic_functions_are_exact)
 {
     make_inputs(6, 0, 0);
-    struct ceduo_surface_fit f = fit_of(quadratic, 6, 256, 2, 0);
+    struct ceduo_surface_fit f = fit_function(quadratic, 6, 256, 2, 0);
     double x = 1 / 3. + 4 / 45., both = 4 / 9., y = 36 / 45., all = x + both + y;
     const double first[] = {x / all, y / all, 0, 0, 0, 0}, total[] = {(x + both) / all, (y + both) / all, 0, 0, 0, 0};
     for (size_t i = 0; i < 6; i++) {
@@ -115,7 +115,7 @@ static double product(const double *u, size_t n)
 TEST(a_product_gives_both_inputs_a_total_of_1)
 {
     make_inputs(12, 0, 0);
-    struct ceduo_surface_fit f = fit_of(product, 12, 256, 3, 0);
+    struct ceduo_surface_fit f = fit_function(product, 12, 256, 3, 0);
     for (size_t i = 0; i < 12; i++) {
         EXPECT_NEAR(f.first[i].value, 0, 1e-6);
         EXPECT_NEAR(f.total[i].value, i < 2 ? 1 : 0, 1e-6);
@@ -136,7 +136,7 @@ static double worded(const double *u, size_t n)
 TEST(words_are_exact)
 {
     make_inputs(3, 2, 3);
-    struct ceduo_surface_fit f = fit_of(worded, 3, 256, 4, 0);
+    struct ceduo_surface_fit f = fit_function(worded, 3, 256, 4, 0);
     const double first[] = {14 / 15., 0, 1 / 3. / 15}, total[] = {(14 + 2 / 3.) / 15, 2 / 3. / 15, 1 / 15.};
     for (size_t i = 0; i < 3; i++) {
         EXPECT_NEAR(f.first[i].value, first[i], 1e-6);
@@ -151,7 +151,7 @@ TEST(words_are_exact)
 
 static double rows[PLACES][DRAWN];
 
-static double of_rows(const double *u, size_t n)
+static double use_rows(const double *u, size_t n)
 {
     (void)n;
     return rows[0][(size_t)(DRAWN * u[0])];
@@ -171,14 +171,14 @@ TEST(rows_of_a_calibration)
     }
     inputs[0] = (struct ceduo_input){.kind = CEDUO_INPUT_DRAWS, .places_count = PLACES, .draws_count = DRAWN, .draws = draws};
     inputs[1] = (struct ceduo_input){.kind = CEDUO_INPUT_DRAWS, .places_count = 1, .draws_count = DRAWN, .draws = none};
-    struct ceduo_surface_fit f = fit_of(of_rows, 2, 256, 1, 0);
+    struct ceduo_surface_fit f = fit_function(use_rows, 2, 256, 1, 0);
     assert_true(f.enough);
     EXPECT_NEAR(f.first[0].value, 1, 1e-6);
     EXPECT_NEAR(f.total[0].value, 1, 1e-6);
     EXPECT_NEAR(f.total[1].value, 0, 1e-6);
     ceduo_surface_release(&f);
     inputs[0] = inputs[1];
-    f = fit_of(of_rows, 1, 256, 1, 0);
+    f = fit_function(use_rows, 1, 256, 1, 0);
     assert_false(f.enough);
     assert_true(isnan(f.total[0].value));
     EXPECT(f.p95 - f.p5, >, 1);
@@ -197,7 +197,7 @@ TEST(a_constant_input)
 {
     make_inputs(3, 0, 0);
     still = true;
-    struct ceduo_surface_fit f = fit_of(linear, 3, 256, 1, 0);
+    struct ceduo_surface_fit f = fit_function(linear, 3, 256, 1, 0);
     still = false;
     const double share[] = {.2, .8, 0};
     for (size_t i = 0; i < 3; i++)
@@ -206,7 +206,7 @@ TEST(a_constant_input)
     ceduo_surface_release(&f);
     make_inputs(1, 1, 2);
     still = true;
-    f = fit_of(turning, 1, 256, 1, 0);
+    f = fit_function(turning, 1, 256, 1, 0);
     still = false;
     assert_true(f.enough);
     EXPECT(f.total[0].value, ==, 0);
@@ -218,7 +218,7 @@ TEST(a_constant_input)
 
 enum { FEW_POINTS = 128, FEW_INPUTS = 13 };
 
-static struct ceduo_surface *of_few_points(const double *u)
+static struct ceduo_surface *use_few_points(const double *u)
 {
     struct ceduo_surface *surface;
     EXPECT(ceduo_surface_open(inputs, FEW_INPUTS, u, FEW_POINTS, &surface), ==, CEDUO_OK);
@@ -235,10 +235,10 @@ TEST(figures_of_one_surface)
     for (size_t p = 0; p < FEW_POINTS; p++)
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
             y[p].of[g] = linear(u + p * FEW_INPUTS, FEW_INPUTS) + 99 * u[p * FEW_INPUTS + 10] * u[p * FEW_INPUTS + 12];
-    struct ceduo_surface *together = of_few_points(u);
+    struct ceduo_surface *together = use_few_points(u);
     for (size_t turn = 0; turn < 4; turn++) {
         size_t n = FEW_INPUTS - turn % 3;
-        struct ceduo_surface *alone = of_few_points(u);
+        struct ceduo_surface *alone = use_few_points(u);
         struct ceduo_surface_fit f, g;
         bool uses[FEW_INPUTS];
         for (size_t i = 0; i < FEW_INPUTS; i++)
@@ -271,7 +271,7 @@ TEST(two_inputs_have_their_shares)
     double errors = 0;
     make_inputs(2, 0, 0);
     for (uint64_t seed = 1; seed <= 20; seed++) {
-        struct ceduo_surface_fit f = fit_of(two, 2, 256, seed, .3 * sqrt(CEDUO_SURFACE_GROUPS / 2.));
+        struct ceduo_surface_fit f = fit_function(two, 2, 256, seed, .3 * sqrt(CEDUO_SURFACE_GROUPS / 2.));
         const double share[] = {.8, .2};
         for (size_t i = 0; i < 2; i++) {
             EXPECT_NEAR(f.first[i].value, share[i], 3 * f.first[i].se);
@@ -293,7 +293,7 @@ static double constant(const double *u, size_t n)
 TEST(a_constant_figure_has_no_shares)
 {
     make_inputs(3, 0, 0);
-    struct ceduo_surface_fit f = fit_of(constant, 3, 64, 1, 0);
+    struct ceduo_surface_fit f = fit_function(constant, 3, 64, 1, 0);
     assert_true(isnan(f.first[0].value) && isnan(f.total[2].se) && isnan(f.left[1]));
     EXPECT_NEAR(f.mean, 7, 1e-12);
     EXPECT_NEAR(f.p95, 7, 1e-12);
@@ -306,7 +306,7 @@ TEST(errors_cover)
     make_inputs(12, 0, 0);
     double inside = 0;
     for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-        struct ceduo_surface_fit f = fit_of(linear, 12, 256, seed, 3 * sqrt(CEDUO_SURFACE_GROUPS / 2.));
+        struct ceduo_surface_fit f = fit_function(linear, 12, 256, seed, 3 * sqrt(CEDUO_SURFACE_GROUPS / 2.));
         for (size_t i = 0; i < 12; i++) {
             double share = (double)((i + 1) * (i + 1)) / 650;
             inside += (fabs(f.first[i].value - share) <= 1.96 * f.first[i].se) / (12. * SEEDS);
@@ -323,7 +323,7 @@ TEST(errors_of_rocks_are_those_of_a_mean)
 {
     make_inputs(2, 0, 0);
     tilt = 1e-3;
-    struct ceduo_surface_fit f = fit_of(linear, 2, 256, 1, 0);
+    struct ceduo_surface_fit f = fit_function(linear, 2, 256, 1, 0);
     EXPECT_NEAR(f.first[0].value, .2, 1e-5);
     EXPECT_NEAR(f.first[0].se / (.32 * tilt / sqrt(15) * 2.13145 / 1.95996), 1, .01);
     tilt = 0;
@@ -358,13 +358,13 @@ TEST(a_poor_surface_is_reported)
     const double first[] = {0.3139, 0.4424, 0}, g_first[] = {0.7165, 0.1791, 0.0237, 0.0072, 0.0001, 0.0001, 0.0001, 0.0001};
     make_inputs(8, 0, 0);
     for (uint64_t seed = 1; seed <= 5; seed++) {
-        struct ceduo_surface_fit f = fit_of(ishigami, 3, 1024, seed, 0);
+        struct ceduo_surface_fit f = fit_function(ishigami, 3, 1024, seed, 0);
         EXPECT(f.explained, <, .6);
         EXPECT(f.whole.value, >, .4);
         for (size_t i = 0; i < 3; i++)
             EXPECT(f.first[i].value, <=, first[i] + 3 * f.first[i].se);
         ceduo_surface_release(&f);
-        f = fit_of(sobol_g, 8, 1024, seed, 0);
+        f = fit_function(sobol_g, 8, 1024, seed, 0);
         EXPECT(f.explained, <, .95);
         EXPECT(f.whole.value, >, .03);
         for (size_t i = 0; i < 8; i++)
@@ -385,7 +385,7 @@ static double by_chance(const double *u, size_t n)
 TEST(chance_explains_nothing)
 {
     make_inputs(12, 0, 0);
-    struct ceduo_surface_fit f = fit_of(by_chance, 12, 256, 1, 0);
+    struct ceduo_surface_fit f = fit_function(by_chance, 12, 256, 1, 0);
     assert_true(f.enough && !f.linear);
     EXPECT_NEAR(f.variance, 1 / 12., 3 * sqrt(1 / 180. / 256)); /* variance of 256 uniform values */
     EXPECT(f.explained, <, 0);
@@ -396,7 +396,7 @@ TEST(chance_explains_nothing)
 TEST(few_points_give_a_band)
 {
     make_inputs(12, 0, 0);
-    struct ceduo_surface_fit f = fit_of(linear, 12, 29, 1, 0);
+    struct ceduo_surface_fit f = fit_function(linear, 12, 29, 1, 0);
     assert_false(f.enough);
     assert_true(isnan(f.total[11].value));
     EXPECT_NEAR(f.p50, 44, 5);
@@ -407,7 +407,7 @@ TEST(few_points_give_a_band)
 TEST(few_points_are_enough_for_lines)
 {
     make_inputs(12, 0, 0);
-    struct ceduo_surface_fit f = fit_of(linear, 12, 32, 1, 0);
+    struct ceduo_surface_fit f = fit_function(linear, 12, 32, 1, 0);
     assert_true(f.enough);
     for (size_t i = 0; i < 12; i++)
         EXPECT_NEAR(f.total[i].value, (double)((i + 1) * (i + 1)) / 650, 1e-6);
@@ -427,7 +427,7 @@ static double sum_of_two(const double *u, size_t n)
 TEST(band_and_remaining_width)
 {
     make_inputs(3, 0, 0);
-    struct ceduo_surface_fit f = fit_of(sum_of_two, 3, 1024, 1, .1);
+    struct ceduo_surface_fit f = fit_function(sum_of_two, 3, 1024, 1, .1);
     EXPECT_NEAR(f.p5, sqrt(.1), .02);
     EXPECT_NEAR(f.p50, 1, .02);
     EXPECT_NEAR(f.p95, 2 - sqrt(.1), .02);
@@ -447,7 +447,7 @@ static double scaled(const double *u, size_t n)
 TEST(remaining_width_is_averaged_over_the_known_input)
 {
     make_inputs(2, 0, 0);
-    struct ceduo_surface_fit f = fit_of(scaled, 2, 1024, 1, 0);
+    struct ceduo_surface_fit f = fit_function(scaled, 2, 1024, 1, 0);
     EXPECT_NEAR(f.left[0], .9, .01);
     ceduo_surface_release(&f);
 }
@@ -463,11 +463,11 @@ static double kinked(const double *u, size_t n)
 TEST(a_band_keeps_within_bounds)
 {
     make_inputs(2, 0, 0);
-    struct ceduo_surface_fit f = fit_of(kinked, 2, 256, 1, .2);
+    struct ceduo_surface_fit f = fit_function(kinked, 2, 256, 1, .2);
     EXPECT(f.p5, <, -1e-3);
     ceduo_surface_release(&f);
     lowest = 0;
-    f = fit_of(kinked, 2, 256, 1, .2);
+    f = fit_function(kinked, 2, 256, 1, .2);
     lowest = -INFINITY;
     EXPECT(f.p5, ==, 0);
     EXPECT_NEAR(f.p95, .5 - sqrt(.1), .03);
@@ -484,7 +484,7 @@ static double rippled_sum(const double *u, size_t n)
 }
 
 /* Return the probability of U + V + a·sin(2πW) <= x, by small steps of W. */
-static double share_up_to(double x)
+static double probability_below(double x)
 {
     double share = 0;
     for (int i = 0; i < 1000; i++) {
@@ -498,7 +498,7 @@ static double value_at_share(double share)
 {
     double lo = -2, hi = 4;
     while (hi - lo > 1e-9)
-        *(share_up_to((lo + hi) / 2) < share ? &lo : &hi) = (lo + hi) / 2;
+        *(probability_below((lo + hi) / 2) < share ? &lo : &hi) = (lo + hi) / 2;
     return lo;
 }
 
@@ -521,9 +521,9 @@ TEST(errors_of_the_band_hold_the_truth)
         ripple = cases[c].ripple;
         memcpy(turns, cases[c].turns, sizeof turns);
         level = fmax(1e-12, cases[c].level);
-        double low = value_at_share(.05), high = value_at_share(.95), share = share_up_to(limit = .9), held = 0;
+        double low = value_at_share(.05), high = value_at_share(.95), share = probability_below(limit = .9), held = 0;
         for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-            struct ceduo_surface_fit f = fit_of(rippled_sum, 3, 256, seed, cases[c].noise);
+            struct ceduo_surface_fit f = fit_function(rippled_sum, 3, 256, seed, cases[c].noise);
             held += fabs(f.p5 - low) <= 1.96 * f.p5_se;
             held += fabs(f.p95 - high) <= 1.96 * f.p95_se;
             held += fabs(f.below.value - share) <= 1.96 * f.below.se;
@@ -577,7 +577,7 @@ static double even_40(const double *u, size_t n)
 TEST(the_dominant_of_many_inputs_have_products)
 {
     make_inputs(40, 0, 0);
-    struct ceduo_surface_fit f = fit_of(even_40, 40, 512, 1, 0);
+    struct ceduo_surface_fit f = fit_function(even_40, 40, 512, 1, 0);
     double squares = 40 * 41 * 81 / 6. / 12, both = 400. * 400 / 144, all = squares + both;
     EXPECT_NEAR(f.total[38].value, (39 * 39 / 12. + both) / all, .01);
     EXPECT_NEAR(f.total[39].value, (40 * 40 / 12. + both) / all, .01);

@@ -37,7 +37,7 @@ static void make_forest(struct forest *f)
 }
 
 /* Sample the stems on plots at random places. */
-static size_t visit(const struct forest *f, struct ceduo_survey_stem *stems, size_t *stools)
+static size_t sample_plots(const struct forest *f, struct ceduo_survey_stem *stems, size_t *stools)
 {
     size_t n = 0;
     *stools = 0;
@@ -77,7 +77,7 @@ TEST(intervals_hold_the_truth)
     for (int i = 0; i < SAMPLES; i++) {
         struct ceduo_survey s = {.plots_count = PLOTS, .areas = areas, .stems = stems};
         LOCAL_BY(ceduo_survey_free) struct ceduo_survey_result a;
-        s.stems_count = visit(f, stems, &s.stools_count);
+        s.stems_count = sample_plots(f, stems, &s.stools_count);
         assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
         const struct ceduo_estimate *n = &a.per_ha[CEDUO_SURVEY_SHOOT];
         shoots += n->lo <= f->shoots_per_ha && f->shoots_per_ha <= n->hi;

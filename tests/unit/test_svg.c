@@ -11,7 +11,7 @@
 #include "view/svg.h"
 
 /* Return a picture as the text of its file; caller frees. */
-static char *put(struct ceduo_svg *svg)
+static char *read_picture(struct ceduo_svg *svg)
 {
     struct text text = {0};
     struct ceduo_html html = {.text = &text};
@@ -29,7 +29,7 @@ static void expect_has(const char *whole, const char *part)
 }
 
 /* Dots have a centre: the first column of dots of a frame at cell 2 is at 2 * 8 + 2 units. */
-static struct ceduo_frame frame_of(int width, int height)
+static struct ceduo_frame make_frame(int width, int height)
 {
     return (struct ceduo_frame){
         .left = 2, .top = 1, .width = width, .height = height, .x1 = 2 * width - 1, .y1 = 4 * height - 1};
@@ -39,13 +39,13 @@ TEST(lines_have_exact_coordinates)
 {
     struct ceduo_svg *svg = ceduo_svg_create(20, 10);
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
-    struct ceduo_frame frame = frame_of(10, 5);
+    struct ceduo_frame frame = make_frame(10, 5);
     double x[] = {0, 1.25, 2.5, 10}, y[] = {0, 0, 0, 5.5};
     ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, 4, x, y);
     ceduo_canvas_rule_x(canvas, &frame, CEDUO_ROLE_CONTROL, 4);
     assert_false(ceduo_canvas_is_blank(canvas, 2, 5));
     assert_true(ceduo_canvas_is_blank(canvas, 15, 8));
-    LOCAL_BYTES char *picture = put(svg);
+    LOCAL_BYTES char *picture = read_picture(svg);
     expect_has(picture, "d=\"M18 94L28 94L58 72\""); /* the middle point of the straight part is dropped */
     expect_has(picture, "stroke-dasharray=\"4 4\"");
     expect_has(picture, "d=\"M34 18L34 94\"");
@@ -64,7 +64,7 @@ TEST(curves_need_few_points)
             y[i] = 10 + 50 * sin(M_PI * i / (N - 1));
         }
         ceduo_canvas_polyline(ceduo_svg_canvas(svg), &frame, CEDUO_ROLE_MEAN, CEDUO_STROKE_PLAIN, N, x, y);
-        char *picture = put(svg), *at = strstr(picture, "d=\"M") + 4;
+        char *picture = read_picture(svg), *at = strstr(picture, "d=\"M") + 4;
         double px, py, qx, qy;
         int points = 1, used;
         assert_int_equal(sscanf(at, "%lf %lf%n", &px, &py, &used), 2);
@@ -94,7 +94,7 @@ TEST(angles_go_round)
         }
         y[10] = 39;
         ceduo_canvas_polyline(ceduo_svg_canvas(svg), &frame, CEDUO_ROLE_MEAN, CEDUO_STROKE_PLAIN, 11, x, y);
-        char *picture = put(svg), *path = strstr(picture, "d=\"M");
+        char *picture = read_picture(svg), *path = strstr(picture, "d=\"M");
         int points = 0;
         for (char *at = path; *at != '/'; at++)
             points += *at == 'L';
@@ -122,7 +122,7 @@ TEST(discs)
             if (near || (far && !other))
                 EXPECT(ceduo_canvas_is_blank(canvas, column, row), ==, !near);
         }
-    LOCAL_BYTES char *picture = put(svg);
+    LOCAL_BYTES char *picture = read_picture(svg);
     expect_has(picture, "M41 78A1 1 0 0 0 43 78A1 1 0 0 0 41 78");
     expect_has(picture, "M130 78A32 32 0 0 0 194 78A32 32 0 0 0 130 78");
 }
@@ -145,7 +145,7 @@ TEST(a_rock_bouncing_in_a_pit_draws_little)
         ceduo_canvas_cloud_start(canvas);
         ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, (size_t)n, x, y);
         ceduo_canvas_cloud_show(canvas, 0);
-        LOCAL_BYTES char *picture = put(svg);
+        LOCAL_BYTES char *picture = read_picture(svg);
         length[on] = strlen(picture);
         if (on)
             expect_has(picture, "L798 "); /* the last point: 199 dots of 4 units, from the centre of the first */
@@ -164,7 +164,7 @@ TEST(axes_and_bars)
     ceduo_canvas_bar(canvas, 2, 9, 10, 0.25, CEDUO_ROLE_GOOD);
     ceduo_canvas_disc(canvas, &frame, CEDUO_ROLE_STEM, 10, 10, 1);
     assert_false(ceduo_canvas_is_blank(canvas, 3, 3)); /* the axis itself */
-    LOCAL_BYTES char *picture = put(svg);
+    LOCAL_BYTES char *picture = read_picture(svg);
     expect_has(picture, "M29.5 16V96");    /* left of the frame, over its rows */
     expect_has(picture, "M29.5 98.5H192"); /* below it */
     expect_has(picture, "text-anchor=\"end\">10</text>");
@@ -180,7 +180,7 @@ TEST(text_and_signs)
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
     ceduo_canvas_label(canvas, 1, 0, CEDUO_ROLE_TEXT, "one two  <three>");
     ceduo_canvas_label(canvas, 1, 2, CEDUO_ROLE_BELT, "\xe2\x94\x9c\xe2\x94\x80 a \xe2\x94\xa4");
-    LOCAL_BYTES char *picture = put(svg);
+    LOCAL_BYTES char *picture = read_picture(svg);
     expect_has(picture, "<text x=\"8\" y=\"12\" textLength=\"56\" fill=\"#1c1c1c\">one two</text>");
     expect_has(picture,
                "<text x=\"80\" y=\"12\" textLength=\"56\" fill=\"#1c1c1c\">&lt;three&gt;</text>"); /* after two blanks */

@@ -101,7 +101,7 @@ static void expect_whole(const char *name, const struct object *object, bool *se
     }
 }
 
-static const struct object *object_of(const struct object *object, const char *key)
+static const struct object *find_object(const struct object *object, const char *key)
 {
     return ceduo_schema_field(object, key)->object;
 }
@@ -117,20 +117,20 @@ TEST(every_member_has_a_row)
 {
     const struct object *scene = ceduo_schema_scene(), *stand = ceduo_schema_stand();
     EXPECT_WHOLE(scene, ceduo_scene);
-    EXPECT_WHOLE(object_of(scene, "rock"), ceduo_rock_def);
-    EXPECT_WHOLE(object_of(scene, "release"), ceduo_release);
-    EXPECT_WHOLE(object_of(scene, "simulation"), ceduo_simulation);
-    EXPECT_WHOLE(object_of(scene, "controls"), ceduo_control);
-    EXPECT_WHOLE(object_of(scene, "options"), ceduo_option);
+    EXPECT_WHOLE(find_object(scene, "rock"), ceduo_rock_def);
+    EXPECT_WHOLE(find_object(scene, "release"), ceduo_release);
+    EXPECT_WHOLE(find_object(scene, "simulation"), ceduo_simulation);
+    EXPECT_WHOLE(find_object(scene, "controls"), ceduo_control);
+    EXPECT_WHOLE(find_object(scene, "options"), ceduo_option);
     EXPECT_WHOLE(ceduo_schema_slope(), ceduo_slope);
     EXPECT_WHOLE(ceduo_schema_segment(), ceduo_segment);
     EXPECT_WHOLE(ceduo_schema_belt(), ceduo_belt);
     EXPECT_WHOLE(stand, ceduo_stand);
-    EXPECT_WHOLE(object_of(stand, "trees"), ceduo_stems);
-    EXPECT_WHOLE(object_of(stand, "stumps"), ceduo_stumps);
-    EXPECT_WHOLE(object_of(stand, "logs"), ceduo_logs);
-    EXPECT_WHOLE(object_of(stand, "growth"), ceduo_growth);
-    EXPECT_WHOLE(object_of(object_of(stand, "growth"), "shoots"), ceduo_curve);
+    EXPECT_WHOLE(find_object(stand, "trees"), ceduo_stems);
+    EXPECT_WHOLE(find_object(stand, "stumps"), ceduo_stumps);
+    EXPECT_WHOLE(find_object(stand, "logs"), ceduo_logs);
+    EXPECT_WHOLE(find_object(stand, "growth"), ceduo_growth);
+    EXPECT_WHOLE(find_object(find_object(stand, "growth"), "shoots"), ceduo_curve);
 }
 
 /* ---- defaults ---- */
@@ -220,7 +220,7 @@ struct keys {
     uint64_t flight, years;
 };
 
-static struct keys keys_of(const struct ceduo_scene *scene)
+static struct keys compute_keys(const struct ceduo_scene *scene)
 {
     struct keys k = {ceduo_scene_key(scene), 0};
     for (size_t i = 0; i < scene->options_count; i++) {
@@ -247,7 +247,7 @@ static bool keys_with(const char *scene, const char *path, const char *value, st
     const char *const sets[] = {set.bytes};
     bool good = ceduo_scene_load(&file, scene, sets, 1, &problems);
     if (good)
-        *k = keys_of(&file.scene);
+        *k = compute_keys(&file.scene);
     return good;
 }
 
@@ -315,7 +315,7 @@ TEST(every_row_affects_its_subject)
     for (size_t i = 0; i < LENGTH(scenes); i++) {
         LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
         read_scene(&file, scenes[i]);
-        before[i] = keys_of(&file.scene);
+        before[i] = compute_keys(&file.scene);
     }
     ceduo_schema_visit(ceduo_schema_scene(), "", check_row, before);
     struct keys moved;
@@ -329,7 +329,7 @@ TEST(every_row_affects_its_subject)
 /* ---- typed access ---- */
 
 /* Expect a typed set to report and do the same as --set. */
-static void check_put(void *context, const char *path, const struct field *f)
+static void check_set(void *context, const char *path, const struct field *f)
 {
     (void)context;
     struct text place = {0};
@@ -361,7 +361,7 @@ static void check_put(void *context, const char *path, const struct field *f)
                 continue;
             if (strcmp(f->key, "per_stool") == 0)
                 ceduo_stand_update_shoot_density(&file.scene.options[0].belts[0].stand);
-            struct keys now = keys_of(&file.scene);
+            struct keys now = compute_keys(&file.scene);
             if (!good || now.flight != set.flight || now.years != set.years)
                 fail_msg("%s=%s: set is another scene than put", place.bytes, values[k]);
         }
@@ -372,7 +372,7 @@ static void check_put(void *context, const char *path, const struct field *f)
 
 TEST(typed_set_equals_text_set)
 {
-    ceduo_schema_visit(ceduo_schema_scene(), "", check_put, NULL);
+    ceduo_schema_visit(ceduo_schema_scene(), "", check_set, NULL);
 }
 
 static void expect_none(struct ceduo_scene *scene, const char *paths)
@@ -384,7 +384,7 @@ static void expect_none(struct ceduo_scene *scene, const char *paths)
 }
 
 /* Find a number and check its value. */
-static struct value found(struct ceduo_scene *scene, const char *path, double number)
+static struct value find_number(struct ceduo_scene *scene, const char *path, double number)
 {
     struct value v;
     assert_true(ceduo_value_find(scene, path, &v));
@@ -393,7 +393,7 @@ static struct value found(struct ceduo_scene *scene, const char *path, double nu
 }
 
 /* Find a number and set it. */
-static struct value put_at(struct ceduo_scene *scene, const char *path, double number)
+static struct value set_number(struct ceduo_scene *scene, const char *path, double number)
 {
     struct value v;
     assert_true(ceduo_value_find(scene, path, &v));
@@ -407,27 +407,27 @@ TEST(paths_of_numbers)
     struct value v;
     read_scene(&file, scenes[1]);
     struct ceduo_scene *s = &file.scene;
-    v = found(s, "options[a].forest[wood].stand.trees[0].per_ha", 80);
-    v = found(s, "controls[road].accepted_kJ", 80);
+    v = find_number(s, "options[a].forest[wood].stand.trees[0].per_ha", 80);
+    v = find_number(s, "controls[road].accepted_kJ", 80);
     assert_true(ceduo_value_set(&v, 90));
     EXPECT(s->controls[0].accepted, ==, 90e3);
-    v = put_at(s, "controls[0].x_m", 185);
+    v = set_number(s, "controls[0].x_m", 185);
     EXPECT(s->controls[0].x_given, ==, 185);
     EXPECT(s->controls[0].x, ==, 85);
-    v = found(s, "release.x_m", 101);
+    v = find_number(s, "release.x_m", 101);
     assert_true(ceduo_value_set(&v, 102));
     EXPECT(s->release.x.mean, ==, 2);
-    v = put_at(s, "release.vx_m_s.spread", .25);
+    v = set_number(s, "release.vx_m_s.spread", .25);
     EXPECT(s->release.vx.spread, ==, .25);
-    v = put_at(s, "release.vx_m_s.mean", 2);
+    v = set_number(s, "release.vx_m_s.mean", 2);
     EXPECT(s->release.vx.mean, ==, 2);
     assert_true(ceduo_value_find(s, "release.height_m.spread", &v));
     assert_false(ceduo_value_set(&v, 5)); /* its range would reach below 0 */
     EXPECT(s->release.height.spread, ==, 0);
-    v = put_at(s, "slope.segments[0].rn", .25); /* set for all segments */
+    v = set_number(s, "slope.segments[0].rn", .25); /* set for all segments */
     for (size_t j = 0; j < 3; j++)
         EXPECT(s->slope.segments[j].rn.mean, ==, .25);
-    v = put_at(s, "simulation.seed", 7);
+    v = set_number(s, "simulation.seed", 7);
     EXPECT(s->simulation.seed, ==, 7);
     assert_false(ceduo_value_set(&v, 7.5) || ceduo_value_set(&v, -1) || ceduo_value_set(&v, NAN) || ceduo_value_set(&v, 1e17));
     assert_false(ceduo_value_find(s, "", &v));
@@ -444,13 +444,13 @@ TEST(paths_of_numbers_in_lists)
     struct value v;
     read_scene(&file, scenes[4]);
     struct ceduo_scene *s = &file.scene;
-    v = found(s, "slope.vertices_m[1][0]", 130);
+    v = find_number(s, "slope.vertices_m[1][0]", 130);
     assert_true(ceduo_value_set(&v, 140));
     EXPECT(s->slope.x[1], ==, 40);
-    v = found(s, "slope.vertices_m[1][1]", 30);
+    v = find_number(s, "slope.vertices_m[1][1]", 30);
     assert_true(ceduo_value_set(&v, 35));
     EXPECT(s->slope.z[1], ==, -25);
-    v = put_at(s, "rock.axes_m[1].spread", .125);
+    v = set_number(s, "rock.axes_m[1].spread", .125);
     assert_false(ceduo_value_set(&v, -.125) || ceduo_value_set(&v, INFINITY) || ceduo_value_set(&v, NAN));
     EXPECT(ceduo_value_get(&v), ==, .125);
     EXPECT(s->rock.axes[1].mean, ==, .5);
@@ -458,7 +458,7 @@ TEST(paths_of_numbers_in_lists)
     assert_true(ceduo_value_find(s, "slope.segments[0].rn.spread", &v));
     assert_false(ceduo_value_set(&v, INFINITY)); /* although draws are clamped to 0 and 1 */
     assert_true(ceduo_value_set(&v, 2));
-    v = found(s, "forest[0].stand.cutting.stay_per_ha[1]", 20);
+    v = find_number(s, "forest[0].stand.cutting.stay_per_ha[1]", 20);
     expect_none(s, "slope.vertices_m[4][1]|slope.vertices_m[a][1]|slope.vertices_m.1[1]|slope.vertices_m[1][1].x|"
                    "rock.axes_m[1].kind|forest[0].stand.cutting.stay_per_ha[2]|forest[0].stand.cutting.stay_per_ha[1].x|"
                    "forest[0].stand.trees[oak].per_ha|controls|controls."); /* stems have no names */

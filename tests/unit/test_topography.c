@@ -127,7 +127,7 @@ static void profile_rough(struct profile *p, unsigned seed, double tolerance)
 }
 
 /* Return the distance of a point from the line through the ends of segment j. */
-static double off_line(const struct ceduo_slope *s, size_t j, double x, double z)
+static double distance_from_line(const struct ceduo_slope *s, size_t j, double x, double z)
 {
     double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j];
     return fabs((z - s->z[j]) * dx - (x - s->x[j]) * dz) / hypot(dx, dz);
@@ -150,7 +150,7 @@ TEST(no_point_is_farther_than_the_tolerance)
             for (size_t i = 0, j = 0; i < p.slope.vertices; i++) {
                 while (p.x[i] > to.x[j + 1])
                     j++;
-                EXPECT(off_line(&to, j, p.x[i], p.z[i]), <=, tolerances[t] * (1 + 1e-9));
+                EXPECT(distance_from_line(&to, j, p.x[i], p.z[i]), <=, tolerances[t] * (1 + 1e-9));
             }
             for (size_t k = 0, i = 0; k < to.vertices; k++) {
                 while (p.x[i] < to.x[k])

@@ -54,7 +54,7 @@ static void open_wood(void)
 }
 
 /* Return an input uniform between lo and hi, at one place. */
-static struct ceduo_input range_of(const char *const *place, double lo, double hi)
+static struct ceduo_input make_range(const char *const *place, double lo, double hi)
 {
     return (struct ceduo_input){
         .path = *place, .kind = CEDUO_INPUT_RANGE, .lo = lo, .hi = hi, .places_count = 1, .places = place};
@@ -66,8 +66,8 @@ TEST(uncertainty_of_a_known_law)
 {
     static const char *const places[] = {"forest[0].stand.trees[0].per_ha", "forest[0].stand.trees[1].per_ha",
                                          "rock.density_kg_m3"};
-    const struct ceduo_input inputs[] = {range_of(&places[2], 2400, 2700), range_of(&places[0], 1000, 2000),
-                                         range_of(&places[1], 1000, 2000)};
+    const struct ceduo_input inputs[] = {make_range(&places[2], 2400, 2700), make_range(&places[0], 1000, 2000),
+                                         make_range(&places[1], 1000, 2000)};
     struct ceduo_uncertainty_result a;
     open_wood();
     const struct ceduo_uncertainty_def def = {
@@ -97,7 +97,7 @@ TEST(more_points_where_inputs_are_many)
     struct ceduo_input inputs[MANY];
     struct ceduo_uncertainty_result a;
     for (size_t i = 0; i < MANY; i++)
-        inputs[i] = i == 0 ? range_of(&places[0], 2400, 2700) : range_of(&places[1], 11, 13);
+        inputs[i] = i == 0 ? make_range(&places[0], 2400, 2700) : make_range(&places[1], 11, 13);
     open_wood();
     file.scene.controls[0].accepted = NAN;
     const struct ceduo_uncertainty_def def = {.scene = &file.scene,
@@ -120,7 +120,7 @@ TEST(more_points_where_inputs_are_many)
 TEST(too_much_work_is_aborted)
 {
     static const char *const place = "slope.segments[0].rn";
-    const struct ceduo_input input = range_of(&place, .2, .6);
+    const struct ceduo_input input = make_range(&place, .2, .6);
     struct ceduo_uncertainty_result a;
     open_wood();
     struct ceduo_uncertainty_def def = {
@@ -144,7 +144,7 @@ TEST(too_much_work_is_aborted)
 
 #define LONG 120 /* years: two per year of a point */
 
-static struct ceduo_uncertainty_def over_long_years(const struct ceduo_input *input)
+static struct ceduo_uncertainty_def set_long_years(const struct ceduo_input *input)
 {
     return (struct ceduo_uncertainty_def){.scene = &file.scene,
                                           .inputs_count = 1,
@@ -161,13 +161,13 @@ static struct ceduo_uncertainty_def over_long_years(const struct ceduo_input *in
 TEST(a_year_of_a_point_represents_several)
 {
     static const char *const place = "rocks_per_year";
-    const struct ceduo_input input = range_of(&place, 1, 2);
+    const struct ceduo_input input = make_range(&place, 1, 2);
     struct ceduo_uncertainty_result a;
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
     file.scene.options[0].belts_count = 0;
     file.scene.controls[0].accepted = 1;
-    const struct ceduo_uncertainty_def def = over_long_years(&input);
+    const struct ceduo_uncertainty_def def = set_long_years(&input);
     EXPECT(ceduo_uncertainty_compute(&def, &a), ==, CEDUO_OK);
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(&a, 0, CEDUO_UNCERTAINTY_FAILING, false);
     EXPECT(f->value, ==, LONG);
@@ -191,14 +191,14 @@ static void read_year(void *context, const struct point *point, const struct con
 TEST(slots_of_a_point_cover_all_years)
 {
     static const char *const place = "rocks_per_year";
-    const struct ceduo_input input = range_of(&place, 1, 2);
+    const struct ceduo_input input = make_range(&place, 1, 2);
     const double u[2] = {.25, .75};
     double years[1 + CEDUO_UNCERTAINTY_YEARS_MAX] = {0};
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
     struct ceduo_stand *stand = &file.scene.options[0].belts[0].stand;
     stand->growth.trees = (struct ceduo_curve){.dbh_most = TREE_MAX, .dbh_rate = .01, .height_most = 20, .height_rate = .01};
-    const struct ceduo_uncertainty_def def = over_long_years(&input);
+    const struct ceduo_uncertainty_def def = set_long_years(&input);
     const struct points points = {.def = &def, .u = u, .read = read_year, .context = years};
     EXPECT(ceduo_points_years(&def), ==, CEDUO_UNCERTAINTY_YEARS_MAX);
     EXPECT(ceduo_points_run(&points, 0, 1, 0), ==, CEDUO_OK);
@@ -213,7 +213,7 @@ static void read_nothing(void *context, const struct point *point, const struct 
 }
 
 /* Return the work for all points of a definition, for one option today. */
-static double effort_of(const struct ceduo_uncertainty_def *def)
+static double measure_effort(const struct ceduo_uncertainty_def *def)
 {
     uint64_t met = 0;
     double *u = malloc(def->points * def->inputs_count * sizeof *u);
@@ -238,7 +238,7 @@ TEST(the_effort_of_a_page_is_bounded)
                  {1000, .8, 16, CEDUO_UNCERTAINTY_POINTS, CEDUO_UNCERTAINTY_POINTS},
                  {1e5, 1, 400, CEDUO_UNCERTAINTY_MIN, CEDUO_UNCERTAINTY_POINTS - 1},
                  {4e5, 60, 100, 0, 0}};
-    const struct ceduo_input input = range_of(&place, .25, .35);
+    const struct ceduo_input input = make_range(&place, .25, .35);
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
     for (int k = 0; k < 2; k++) /* trees stop no rock */
@@ -264,8 +264,8 @@ TEST(the_effort_of_a_page_is_bounded)
             EXPECT(def.points, >=, cases[i].least);
             EXPECT(def.points, <=, cases[i].most);
             if (def.points > 0) {
-                EXPECT(effort_of(&def), <=, CEDUO_EFFORT_MAX);
-                EXPECT(effort_of(&def), <=,
+                EXPECT(measure_effort(&def), <=, CEDUO_EFFORT_MAX);
+                EXPECT(measure_effort(&def), <=,
                        fmax(CEDUO_EFFORT_MIN, CEDUO_EFFORT_TIMES * ceduo_effort_compute(&file.scene, &own.work)));
             }
             assert_true(threads == 1 || def.points == points);
@@ -341,7 +341,7 @@ TEST(words_and_rows_share_the_range)
                                           .draws = draws,
                                           .places_count = 1,
                                           .places = &places[1]},
-                                         range_of(&places[2], 1, 3)};
+                                         make_range(&places[2], 1, 3)};
     const double u[] = {0, .4999, .5, 1};
     struct input_scene copy;
     open_wood();
@@ -372,7 +372,7 @@ TEST(ends_of_a_normal_input)
 TEST(stools_are_limited_to_their_shoots)
 {
     static const char *const places[] = {"forest[0].stand.stools.per_ha", "forest[0].stand.shoots[0].per_ha"};
-    const struct ceduo_input inputs[] = {range_of(&places[0], 600, 3000), range_of(&places[1], 500, 2500)};
+    const struct ceduo_input inputs[] = {make_range(&places[0], 600, 3000), make_range(&places[1], 500, 2500)};
     static const double cases[][4] = {
         {1, NAN, 2000, 2000}, {0, NAN, 600, 2000}, {1, 0, 500, 500}, {NAN, 0, 500, 500}, {NAN, NAN, 600, 2000}};
     struct input_scene copy;

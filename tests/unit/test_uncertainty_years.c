@@ -52,7 +52,7 @@ static double variance_of_failing(const struct ceduo_years *years)
     return pow((hi - lo) / 2 / CEDUO_Z95, 2) + apart;
 }
 
-static void look_at_point(struct input_scene *copy, const double *u, size_t point)
+static void simulate_point(struct input_scene *copy, const double *u, size_t point)
 {
     struct ceduo_results own;
     ceduo_inputs_set(copy, u);
@@ -73,7 +73,7 @@ static void look_at_point(struct input_scene *copy, const double *u, size_t poin
     ceduo_results_release(&own);
 }
 
-static struct ceduo_uncertainty_def def_of(unsigned threads, size_t points)
+static struct ceduo_uncertainty_def make_def(unsigned threads, size_t points)
 {
     return (struct ceduo_uncertainty_def){.scene = &file.scene,
                                           .inputs_count = inputs.n,
@@ -87,7 +87,7 @@ static struct ceduo_uncertainty_def def_of(unsigned threads, size_t points)
 
 static void ask(unsigned threads, size_t points, struct ceduo_uncertainty_result *to)
 {
-    const struct ceduo_uncertainty_def def = def_of(threads, points);
+    const struct ceduo_uncertainty_def def = make_def(threads, points);
     EXPECT(ceduo_uncertainty_compute(&def, to), ==, CEDUO_OK);
 }
 
@@ -101,19 +101,19 @@ static void open_scene(void)
 }
 
 /* Simulate every point separately. */
-static void look_at_points(void)
+static void simulate_points(void)
 {
     double *u = malloc(POINTS * inputs.n * sizeof *u);
     struct input_scene copy;
     EXPECT(ceduo_surface_points(file.scene.simulation.seed, POINTS, inputs.n, u), ==, CEDUO_OK);
     EXPECT(ceduo_inputs_open(&copy, &file.scene, inputs.items, inputs.n), ==, CEDUO_OK);
     for (size_t p = 0; p < POINTS; p++)
-        look_at_point(&copy, u + p * inputs.n, p);
+        simulate_point(&copy, u + p * inputs.n, p);
     ceduo_inputs_release(&copy);
     free(u);
 }
 
-static const struct ceduo_uncertainty_figure *mean_of(size_t i)
+static const struct ceduo_uncertainty_figure *compute_mean(size_t i)
 {
     return ceduo_uncertainty_find_figure(&answer, i < OPTIONS ? i : 1, CEDUO_UNCERTAINTY_MEAN, i == OPTIONS);
 }
@@ -141,7 +141,7 @@ static double variance_of_mean(size_t i)
 static void expect_means(void)
 {
     for (size_t i = 0; i <= OPTIONS; i++) {
-        const struct ceduo_uncertainty_figure *f = mean_of(i);
+        const struct ceduo_uncertainty_figure *f = compute_mean(i);
         double off = 0, spread = 0, shift = mean(f->fit.values) - mean(means[i]);
         EXPECT_NEAR(shift, 0, 3 * sqrt(variance_of_mean(i)));
         for (size_t p = 0; p < POINTS; p++) {
@@ -200,7 +200,7 @@ static void expect_order(void)
 TEST(a_rotation_equals_separate_points)
 {
     open_scene();
-    look_at_points();
+    simulate_points();
     ask(2, POINTS, &answer);
     assert_true(answer.rotation);
     expect_means();
@@ -233,7 +233,7 @@ TEST(one_option_alone_over_a_rotation)
 {
     struct ceduo_uncertainty_result alone;
     open_scene();
-    struct ceduo_uncertainty_def def = def_of(2, 16);
+    struct ceduo_uncertainty_def def = make_def(2, 16);
     ask(2, 16, &answer);
     def.alone = true;
     def.option = 1;

@@ -53,7 +53,7 @@ TEST(columns)
     assert_int_equal(ceduo_utf8_step("\xc3x"), 1);
 }
 
-static void lines_are(const char *text, size_t width, const char *const *wanted)
+static void expect_lines(const char *text, size_t width, const char *const *wanted)
 {
     for (; *text; wanted++) {
         const char *next;
@@ -69,17 +69,18 @@ static void lines_are(const char *text, size_t width, const char *const *wanted)
 
 TEST(lines)
 {
-    lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 11, (const char *[]){"dell'acqua", "\xc3\xa8 cos\xc3\xac", NULL});
-    lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 12, (const char *[]){"dell'acqua \xc3\xa8", "cos\xc3\xac", NULL});
-    lines_are("one\ntwo", 20, (const char *[]){"one", "two", NULL});
-    lines_are("of 984–995 kJ/m3", 8, (const char *[]){"of", "984–995", "kJ/m3", NULL});
-    lines_are("coppice-with-standards", 10, (const char *[]){"coppice-", "with-", "standards", NULL});
-    lines_are("abcdefgh", 3, (const char *[]){"abc", "def", "gh", NULL});
-    lines_are(" abcdef", 3, (const char *[]){" ab", "cde", "f", NULL}); /* a blank alone makes no line */
-    lines_are("\xe6\x9c\xa8\xe6\x9c\xa8", 1, (const char *[]){"\xe6\x9c\xa8", "\xe6\x9c\xa8", NULL}); /* always at least one */
-    lines_are("a\xff\xff"
-              "b c",
-              3, (const char *[]){"a\xff\xff", "b c", NULL});
+    expect_lines("dell'acqua \xc3\xa8 cos\xc3\xac", 11, (const char *[]){"dell'acqua", "\xc3\xa8 cos\xc3\xac", NULL});
+    expect_lines("dell'acqua \xc3\xa8 cos\xc3\xac", 12, (const char *[]){"dell'acqua \xc3\xa8", "cos\xc3\xac", NULL});
+    expect_lines("one\ntwo", 20, (const char *[]){"one", "two", NULL});
+    expect_lines("of 984–995 kJ/m3", 8, (const char *[]){"of", "984–995", "kJ/m3", NULL});
+    expect_lines("coppice-with-standards", 10, (const char *[]){"coppice-", "with-", "standards", NULL});
+    expect_lines("abcdefgh", 3, (const char *[]){"abc", "def", "gh", NULL});
+    expect_lines(" abcdef", 3, (const char *[]){" ab", "cde", "f", NULL}); /* a blank alone makes no line */
+    expect_lines("\xe6\x9c\xa8\xe6\x9c\xa8", 1,
+                 (const char *[]){"\xe6\x9c\xa8", "\xe6\x9c\xa8", NULL}); /* always at least one */
+    expect_lines("a\xff\xff"
+                 "b c",
+                 3, (const char *[]){"a\xff\xff", "b c", NULL});
 
     static char word[WORD + 1];
     memset(word, 'a', WORD);

@@ -16,7 +16,7 @@
 /* ---- ranges ---- */
 
 /* Return the messages of a scene with path=value; NULL if the scene has no such place. Caller frees. */
-static char *told_of(const char *scene, const char *path, const char *value)
+static char *read_problems(const char *scene, const char *path, const char *value)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
@@ -36,7 +36,7 @@ static bool is_in_range(const char *path, const char *place, const char *value)
 {
     LOCAL_BYTES char *told = NULL;
     for (size_t i = 0; !told && i < LENGTH(scenes); i++)
-        told = told_of(scenes[i], path, value);
+        told = read_problems(scenes[i], path, value);
     if (!told)
         fail_msg("no scene here holds %s", path);
     static const char *const words[] = {" is below ", " is not above ", " is above ", " is not below ", " the spread reaches "};
@@ -62,7 +62,7 @@ static void expect_range(const char *path, const char *place, double value, bool
 static size_t fields, open_ends;
 
 /* Try the limits, and their neighbouring numbers on both sides. */
-static void try_field(void *context, const char *path, const struct field *f)
+static void check_field(void *context, const char *path, const struct field *f)
 {
     (void)context;
     bool points = f->type == FIELD_POINTS, listed = f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS || points;
@@ -90,7 +90,7 @@ static void try_field(void *context, const char *path, const struct field *f)
 TEST(every_range_ends_at_its_limits)
 {
     fields = open_ends = 0;
-    ceduo_schema_visit(ceduo_schema_scene(), "", try_field, NULL);
+    ceduo_schema_visit(ceduo_schema_scene(), "", check_field, NULL);
     EXPECT(fields, >, 60);
     EXPECT(open_ends, >, 0); /* the loop covered the table */
 }

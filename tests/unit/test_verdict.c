@@ -33,14 +33,14 @@ static size_t clear_best(const struct ceduo_leader *leader)
     return leader->known && leader->rivals == 0 ? leader->best : SIZE_MAX;
 }
 
-struct watch {
+struct history {
     bool known;
     size_t best;
     uint64_t rocks; /* at the first sentence */
 };
 
 /* Check that a known figure stays known and a clear option stays the same. */
-static void watch(struct watch *w, const struct ceduo_leader *leader, uint64_t rocks)
+static void check_leader(struct history *w, const struct ceduo_leader *leader, uint64_t rocks)
 {
     size_t best = clear_best(leader);
     if (w->known)
@@ -70,7 +70,7 @@ static void expect_beaten(const struct ceduo_verdict *v)
 
 TEST(a_clear_verdict_stays)
 {
-    struct watch today = {.best = SIZE_MAX}, rotation = {.best = SIZE_MAX};
+    struct history today = {.best = SIZE_MAX}, rotation = {.best = SIZE_MAX};
     size_t looks = 0, shares = 0;
     open_scene("profiles/scenes/rotation.yaml");
     ceduo_live_follow(&live, &file, 1, 0, 0);
@@ -84,8 +84,8 @@ TEST(a_clear_verdict_stays)
             known += isnan(live.verdict.choices[i].mean.mean) ? 0 : 1;
         assert_true(known >= shares); /* no share becomes unknown again */
         shares = known;
-        watch(&today, &live.verdict.today, fewest_rocks());
-        watch(&rotation, &live.verdict.rotation, live.results.years ? live.results.years->rocks : 0);
+        check_leader(&today, &live.verdict.today, fewest_rocks());
+        check_leader(&rotation, &live.verdict.rotation, live.results.years ? live.results.years->rocks : 0);
         looks++;
     }
     assert_true(today.known && rotation.known);
@@ -187,7 +187,7 @@ struct made {
 static struct made made;
 
 /* Make all options equal: half of the rocks arrive with too much, today, under the other law and in the one year. */
-static void make_alike(void)
+static void make_equal(void)
 {
     made = (struct made){.bare = {.released = ROCKS, .reached = ROCKS, .reach.mean = 1, .exceed.mean = 1}};
     made.result = (struct ceduo_result){.scene = &file.scene,
@@ -233,7 +233,7 @@ static int open_made(void **state)
     assert_true(ceduo_scene_load(&file, "profiles/scenes/rotation.yaml", NULL, 0, &problems));
     EXPECT(file.scene.controls_count, ==, 1);
     kept = file;
-    make_alike();
+    make_equal();
     return 0;
 }
 

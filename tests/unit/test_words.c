@@ -164,7 +164,7 @@ TEST(an_answer_depends_where_the_laws_differ)
 
 /* ---- intervals ---- */
 
-static void expect_said(double share, double lo, double hi, const char *wanted)
+static void expect_sentence(double share, double lo, double hi, const char *wanted)
 {
     LOCAL_TEXT(text);
     open_scene(50e3);
@@ -181,7 +181,7 @@ static void expect_said(double share, double lo, double hi, const char *wanted)
 TEST(an_interval_is_rounded_outward)
 {
     for (TABLE(row, "unit/words.txt", "intervals"))
-        expect_said(atof(row.at[0]), atof(row.at[1]), atof(row.at[2]), row.at[3]);
+        expect_sentence(atof(row.at[0]), atof(row.at[1]), atof(row.at[2]), row.at[3]);
 }
 
 /* ---- one-line answer ---- */
