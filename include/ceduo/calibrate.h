@@ -30,7 +30,7 @@ struct ceduo_calibration_scene {
     const struct ceduo_observation *observations;
 };
 
-enum ceduo_calibration_stage { CEDUO_SEARCH, CEDUO_REFINE, CEDUO_CHAINS };
+enum ceduo_calibration_stage { CEDUO_SEARCH, CEDUO_CHAINS };
 
 /* Progress: the best values up to now, in the units of files. */
 struct ceduo_calibration_state {

@@ -119,13 +119,6 @@ struct ceduo_uncertainty_order {
     double p5, p95; /* of the difference of the figure that ranks them */
 };
 
-/* The options, ranked by the scene as given. */
-struct ceduo_uncertainty_ranking {
-    bool rotation;                          /* ranked by the mean over a rotation, otherwise by today's main figure */
-    size_t count;                           /* pairs: options - 1; 0: one option, or not computed */
-    struct ceduo_uncertainty_order *orders; /* each option and the next one */
-};
-
 struct ceduo_uncertainty_result {
     size_t points;
     uint64_t rocks; /* of each point */
@@ -135,7 +128,10 @@ struct ceduo_uncertainty_result {
     struct ceduo_uncertainty_figure
         *figures;                     /* by option and kind, then the differences; see ceduo_uncertainty_find_figure() */
     enum ceduo_uncertainty_kind main; /* EXCEED if an accepted energy is given, otherwise ENERGY */
-    struct ceduo_uncertainty_ranking today, over_rotation;
+    size_t orders_count;              /* options - 1; 0: one option, or not computed */
+    /* Each option and the next one, ranked by the scene as given: by the mean over the rotation if computed, otherwise by today's
+     * main figure. */
+    struct ceduo_uncertainty_order *orders;
     uint64_t evaluations; /* scenes computed, each with all options and their years */
 };
 
@@ -149,9 +145,6 @@ void ceduo_uncertainty_free(struct ceduo_uncertainty_result *answer);
 const struct ceduo_uncertainty_figure *ceduo_uncertainty_find_figure(const struct ceduo_uncertainty_result *answer,
                                                                      size_t option, enum ceduo_uncertainty_kind kind,
                                                                      bool difference);
-
-/* Return the ranking that pages and views show: over the rotation if computed, otherwise today's. */
-const struct ceduo_uncertainty_ranking *ceduo_uncertainty_ranking_by(const struct ceduo_uncertainty_result *answer);
 
 /* Find the inputs that decide a light of the last control: contact, free run, or energy (CEDUO_UNCERTAINTY_EXCEED). Return the
  * number of dominant inputs, 1 or 2, the largest share first. Return 0 if the light does not change within the 90 % range, or

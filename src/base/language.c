@@ -18,9 +18,7 @@ const char *ceduo_translate(const char *string)
 
 const char *ceduo_in_language(const char *english, const char *italian)
 {
-    return italian && strcmp(ceduo_translate(N_("en")), "it") == 0
-               ? italian
-               : english; /* each catalogue translates "en" to its own code */
+    return italian && strcmp(ceduo_translate(N_("en")), "it") == 0 ? italian : english; /* "en" is translated to its own code */
 }
 
 const char *ceduo_translate_n(const char *one, const char *many, unsigned long n)

@@ -215,11 +215,11 @@ OP(real, min, (real p, real q), blend((mask)(p < q), p, q))
 OP(real, max, (real p, real q), blend((mask)(p > q), p, q))
 FORCE_INLINE void compress(mask which, ints p, void *to)
 {
-    char *at = to;
+    char *next = to;
     EACH_LANE(i) {
         uint64_t one = p[i];
-        memcpy(at, &one, sizeof one);
-        at += (uint64_t)which[i] & sizeof one;
+        memcpy(next, &one, sizeof one);
+        next += (uint64_t)which[i] & sizeof one;
     }
 }
 

@@ -13,7 +13,7 @@
 #include "model/fit.h"
 #include "view/figures.h"
 
-#define NO_VALUE _("'%s' is no number of these scenes that can be fitted; ceduo --list-parameters shows all")
+#define NO_VALUE _("'%s' is not a number of these scenes and cannot be fitted; see ceduo --list-parameters")
 
 /* All scenes, and the places of the fitted values in each. */
 struct fit_job {
@@ -60,10 +60,10 @@ static enum exit_status find_parameter(struct fit_job *j, size_t i)
     }
     bool mu = strcmp(field->key, "mu") == 0; /* depends on the shape of the rock; only the law arm uses it */
     if (mu && arms == 0)
-        return ceduo_usage_error("calibrate", _("'%s' has no part in this law; only arm knows it"), path);
+        return ceduo_usage_error("calibrate", _("'%s' has no effect in this law; only arm uses it"), path);
     if (mu && !ceduo_calibration_identifies_mu(j->scenes, j->scenes_count))
         return ceduo_usage_error(
-            "calibrate", _("'%s' cannot be told from rocks of one shape; observe rocks of two, or leave it as it is"), path);
+            "calibrate", _("'%s' cannot be identified from rocks of one shape; observe two shapes, or do not fit it"), path);
     return EXIT_DONE;
 }
 
@@ -84,8 +84,8 @@ static enum exit_status open_job(struct fit_job *j)
     for (size_t i = 0; i < j->parameters_count && status == EXIT_DONE; i++)
         status = find_parameter(j, i);
     if (status == EXIT_DONE && !observed)
-        return ceduo_usage_error("calibrate", _("no scene says what was seen there, to be fitted; write it under 'observed' "
-                                                "(man ceduo-scene)"));
+        return ceduo_usage_error("calibrate",
+                                 _("no scene has observations to fit; add them under 'observed' (man ceduo-scene)"));
     return status;
 }
 

@@ -59,7 +59,7 @@ static bool read_heads(struct each *e)
         e->names_files |= e->heads[i].sets == PATH_FILE || e->heads[i].sets == PATH_OTHER;
     }
     return set > 0 || ceduo_problem(t->problems, t->source, t->head_place.line, 1,
-                                    _("no column changes the scene: none of the heads is a path of --set"));
+                                    _("no column changes the scene; name one after a path of --set"));
 }
 
 /* True if a cell is a YAML mapping or list: {mean: 1, spread: 0.2}. */
@@ -92,7 +92,7 @@ static bool read_rows(struct each *e)
         t->heads[i].numeric = e->heads[i].sets == PATH_NUMBER;
     ceduo_csv_scan(t);
     if (t->rows == 0)
-        return ceduo_problem(t->problems, t->source, 0, 0, _("no row below the head"));
+        return ceduo_problem(t->problems, t->source, 0, 0, _("the table has no row"));
     e->rows = ceduo_arena_alloc(&e->arena, t->rows * sizeof *e->rows);
     t->arena = &e->row_arena; /* the list of cells has its final size after the scan */
     while (ceduo_csv_next_row(t)) {

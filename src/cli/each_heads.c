@@ -149,12 +149,13 @@ static bool check_copied(const struct csv *table, size_t column, const struct me
     const char *meant = path ? find_nearest(m, arena, head) : find_meant(m, arena, head);
     if (meant)
         return ceduo_csv_error(table, table->heads[column],
-                               _("'%s' is no path of --set; write '%s' to set it, or rename the column to copy it"), head,
+                               _("'%s' is not a path of --set; write '%s' to set it, or rename the column to copy it"), head,
                                meant);
-    return !path || ceduo_csv_error(table, table->heads[column],
-                                    _("'%s' is no path of --set (ceduo --list-parameters); the head of a column that is "
-                                      "copied has no '.' or '['"),
-                                    head);
+    return !path ||
+           ceduo_csv_error(
+               table, table->heads[column],
+               _("'%s' is not a path of --set (ceduo --list-parameters); to copy the column, rename it without '.' and '['"),
+               head);
 }
 
 /* ---- all heads ---- */

@@ -188,7 +188,7 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
         return report_form(row, value, "A:B[:STEP]", "0:25");
     if (parts[0] < 0 || parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1 ||
         (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MAX)
-        return ceduo_usage_error(row->name, _("%s: expected at most %d years of 0 (the stand as filed) to 100000"), value,
+        return ceduo_usage_error(row->name, _("%s: give at most %d years between 0 (the stand in the file) and 100000"), value,
                                  CEDUO_YEARS_MAX);
     a->window = (struct ceduo_window){
         .first = (unsigned)parts[0], .last = (unsigned)parts[1], .step = parts[2] > 100000 ? 100000 : (unsigned)parts[2]};
@@ -234,7 +234,7 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
     case CEDUO_GOAL_NO_NUMBER:
         return report_no_number(row, number);
     case CEDUO_GOAL_NEGATIVE:
-        return ceduo_usage_error(row->name, _("%s is below 0"), number);
+        return ceduo_usage_error(row->name, _("%s is below %s%s%s"), number, "0", "", "");
     case CEDUO_GOAL_NO_SHARE:
         return report_no_share(row, number);
     default:
@@ -287,7 +287,7 @@ static const struct option_row rows[] = {
     {"format", 'f', "table|csv|json", set_word, MEMBER(format), MODE_TERMINAL, M_CHECK | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN,
      .help = N_("format of the output (table)")},
     {"details", 0, NULL, set_flag, MEMBER(details), MODE_BATCH, M_CHECK | M_FIND | M_UNCERTAINTY | M_FIT | M_PAGE | M_SURVEY,
-     .help = N_("print the whole page, with every figure, not the answer alone")},
+     .help = N_("print the whole page with every figure, not only the answer")},
     {"output", 'o', "FILE", set_output, 0, MODE_TERMINAL, M_CHECK | M_PAGE | M_SCREEN,
      .help = N_("write to FILE, - for standard output; a regular file is written completely or not at all")},
     {"set", 's', "PATH=VALUE", add_word, MEMBER(sets), MODE_TERMINAL, M_SURVEY | M_SCREEN,
@@ -306,8 +306,7 @@ static const struct option_row rows[] = {
     {"columns", 0, "LIST", set_text, MEMBER(columns), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN,
      NEEDS_CSV, .help = N_("print these columns of CSV, with commas between their names")},
     {"resume", 0, NULL, set_flag, MEMBER(resume), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_SCREEN, NEEDS_FILE,
-     .help = N_("with --each and -o: rows that stand in FILE are not computed again; FILE grows row by row, with FILE.resume "
-                "beside it")},
+     .help = N_("with --each and -o: do not compute rows again that FILE has; FILE grows row by row, and so does FILE.resume")},
     {"seed", 0, "N", set_seed, MEMBER(seed), MODE_TERMINAL, M_SURVEY | M_SCREEN,
      .help = N_("seed of the random numbers, 0 to 2^53"), .lo = 0, .hi = 0x1p53},
     {"threads", 'j', "N", set_count, MEMBER(threads), MODE_TERMINAL, M_SURVEY,
@@ -316,34 +315,33 @@ static const struct option_row rows[] = {
      .help = N_("compute only this option of the scene; may be repeated")},
     {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, M_CHECK | M_FIT | M_SURVEY,
      .help =
-         N_("compute every option year by year: the years ahead, which all options have, or the years A to B; the stands as "
-            "filed are year 0")},
+         N_("compute every option year by year: the common years ahead, or the years A to B; year 0 is the stand in the file")},
     {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, M_CHECK | M_PAGE | M_SURVEY, NEEDS_GOAL,
      .help = N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_FIND,
      .help = N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
     {"sure", 0, "SHARE", set_share, MEMBER(sure), MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_FIND,
-     .help = N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9"), .hi = 1},
+     .help = N_("with --find: also find the value that reaches the goal in this share of plausible cases, such as 0.9"),
+     .hi = 1},
     {"sensitivity", 0, "[N]", set_count, MEMBER(points), MODE_SENSITIVITY, M_CHECK | M_SURVEY,
-     .help = N_("show how sure the result is, and what that depends on; N points (256)"), .lo = 2,
+     .help = N_("show the effect of uncertain inputs on the result; N points (256)"), .lo = 2,
      .hi = CEDUO_UNCERTAINTY_POINTS_MAX},
     {"report", 0, "FILE", set_report, 0, MODE_REPORT, M_CHECK | M_SURVEY,
-     .help = N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
+     .help = N_("write a report as HTML, with pictures and a chapter for each scene; - is standard output")},
     {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, M_CHECK | M_PAGE | M_SURVEY,
-     .help =
-         N_("fit this value to what was observed, between LO and HI; may be repeated; -o FILE.yaml writes the first scene with "
-            "what was found")},
+     .help = N_("fit this value to the observations, between LO and HI; may be repeated; -o FILE.yaml writes the first scene "
+                "with the fitted values")},
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, M_CHECK | M_FIND | M_FIT | M_PAGE | M_SURVEY,
      .help =
          N_("print a picture: profile, energy, height, histogram, rotation, stand, compare, tradeoff, uncertainty or hazard")},
     {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_PLOT,
      .help = N_("size of a picture in columns and lines (80x24)")},
     {"charset", 0, "braille|block|ascii", set_word, MEMBER(charset), MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_PICTURE,
-     .help = N_("characters that pictures are made of (from the locale)")},
+     .help = N_("characters of pictures (from the locale)")},
     {"language", 0, "it|en", set_language, MEMBER(language), MODE_TERMINAL, 0,
      .help = N_("language of tables, screens and messages (from the locale)")},
     {"script", 0, "FILE", set_text, MEMBER(script), MODE_TERMINAL, ~(unsigned)M_SCREEN,
-     .help = N_("feed keys and commands to the terminal program; needs no terminal")},
+     .help = N_("run keys and commands in the terminal program; needs no terminal")},
     {"check", 0, NULL, NULL, 0, MODE_CHECK, M_SURVEY, .help = N_("check the scenes and print every problem; compute nothing")},
     {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, M_SURVEY,
      .help = N_("list path, type, unit, range, default and meaning of each parameter")},

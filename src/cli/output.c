@@ -23,7 +23,7 @@ bool ceduo_output_is(const struct arguments *a, const char *path)
 {
     if (!a->output || !path || !ceduo_file_same(a->output, path))
         return false;
-    ceduo_print_message(a->output, _("it is read in this run; write elsewhere"));
+    ceduo_print_message(a->output, _("this file is an input of the run; write elsewhere"));
     return true;
 }
 

@@ -111,8 +111,7 @@ static int open_regular(const char *path, const char **why)
     struct stat st;
     *why = NULL;
     if (stat(path, &st) == 0 && !S_ISREG(st.st_mode)) {
-        *why =
-            S_ISDIR(st.st_mode) ? strerror(EISDIR) : _("--resume needs a file that can be read again, not a device or a pipe");
+        *why = S_ISDIR(st.st_mode) ? strerror(EISDIR) : _("--resume needs a regular file, not a device or a pipe");
         return -1;
     }
     int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
@@ -259,13 +258,12 @@ static enum exit_status compare_run(const struct resume *r, const char *output, 
     size_t format = strlen(FORMAT), head = r->head->length;
     *again = output_n < head && memcmp(output, r->head->bytes, output_n) == 0;
     if (side_n > 0 && (side_n < format ? memcmp(side, FORMAT, side_n) : memcmp(side, FORMAT, format)) != 0)
-        return refuse(r->side_path, _("this is no file of --resume; move it away"));
+        return refuse(r->side_path, _("this is not a file of --resume; move it away"));
     if (output_n == 0)
         return EXIT_DONE;
     if (side_n == 0) {
         LOCAL_TEXT(why);
-        ceduo_text_format(&why, _("there is no %s that says which run it belongs to; write elsewhere, or remove it"),
-                          r->side_path);
+        ceduo_text_format(&why, _("its side file %s is missing; write elsewhere, or remove it"), r->side_path);
         return refuse(r->arguments->output, ceduo_text_string(&why));
     }
     LOCAL_TEXT(found);

@@ -168,7 +168,7 @@ static bool read_number(struct binder *b, const struct node *node, double *value
     if (reading == CEDUO_NUMBER_GOOD)
         return true;
     if (reading != CEDUO_NUMBER_NONE)
-        return report(b, node, _("too large a number"));
+        return report(b, node, _("the number is too large"));
     const char *text = node->text, *comma = strchr(text, ',');
     size_t whole = strspn(text, "+-0123456789"), rest = comma ? strspn(comma + 1, "0123456789") : 0;
     bool thousands = rest == 3 && ceduo_decimal_read(text) != 0;
@@ -231,7 +231,7 @@ static void bind_count(struct binder *b, const struct field *f, const struct nod
     else if (!check_range(b, f, node, value))
         return;
     else if (ceduo_count_read(node->text, f->lo, f->hi, &count) != CEDUO_NUMBER_GOOD)
-        report(b, node, _("%s is above %.0f"), node->text, f->hi);
+        report(b, node, _("%s is above %s%s%s"), node->text, NUMERAL(f->hi), f->unit[0] ? " " : "", f->unit);
     else {
         warn_unusual(b, f, node, value);
         ceduo_schema_set_count(f, to, count);
@@ -293,7 +293,7 @@ static void bind_spread(struct binder *b, const struct field *f, const struct no
     rows[0].type = rows[1].type = FIELD_NUMBER;
     bind_map(b, &parts, node, to);
     if (!ceduo_schema_spread_fits(f, *to))
-        report(b, node, _("the spread reaches from %.6g to %.6g %s, beyond what is possible; make it smaller"),
+        report(b, node, _("with this spread the values reach from %.6g to %.6g %s; reduce it to stay within the range"),
                ceduo_number_lowest(*to) / f->scale, ceduo_number_highest(*to) / f->scale, f->unit);
 }
 
@@ -351,7 +351,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
     switch (f->type) { /* untaken: table */
     case FIELD_TAG:
         if (expect_kind(b, node, NODE_SCALAR, f->value) && strcmp(node->text, f->value) != 0)
-            report(b, node, _("'%s': expected '%s'"), node->text, f->value);
+            report(b, node, _("'%s': expected %s"), node->text, f->value);
         break;
     case FIELD_TEXT:
     case FIELD_FILE:
@@ -383,7 +383,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
             break;
         *(bool *)to = strcmp(node->text, "true") == 0;
         if (node->quoted || (!*(bool *)to && strcmp(node->text, "false") != 0))
-            report(b, node, _("'%s': expected true or false"), node->text);
+            report(b, node, _("'%s': expected %s"), node->text, _("true or false"));
         break;
     case FIELD_GROUP:
         bind_map(b, f->object, node, to);
@@ -449,7 +449,7 @@ static void bind_source(struct binder *b, const struct node *node)
     for (size_t i = 0; i < source.except_count; i++) {
         ceduo_text_format(&changed, i == 0 ? _("changed since: %s") : ", %s", source.except[i]);
         before = enter_key(b, source.except[i]);
-        add_note(b, N_("changed"), _("the source around it is not of this value"), NULL);
+        add_note(b, N_("changed"), _("the source of the whole does not apply to this value"), NULL);
         leave_path(b, before);
     }
     const char *const texts[2] = {source.text, source.text_it};

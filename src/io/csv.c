@@ -65,9 +65,7 @@ static const char *read_quoted(struct csv *csv, const char *p, const char *end, 
     if (to == end)
         mark_bad(csv, p, _("this quote is not closed; close it, or remove it"));
     else if (lines > 0 && csv->heads_count > 1 && inside + 1 >= csv->heads_count) /* a row may be inside */
-        mark_bad(csv, p,
-                 _("from this quote to the next one lie a line break and as many separators as a row has; remove the quote, or "
-                   "the line breaks"));
+        mark_bad(csv, p, _("this quoted cell contains a whole row; remove the quote, or the line breaks in the cell"));
     char *copy = doubled > 0 ? ceduo_arena_copy(csv->arena, from, cell->n) : NULL;
     if (copy) {
         size_t n = 0;
@@ -334,8 +332,8 @@ void ceduo_csv_find_head(struct csv *csv, const struct csv_head *heads, size_t n
     }
     for (size_t i = 0; i < n; i++)
         if (columns[i] == CEDUO_CSV_DUPLICATE)
-            ceduo_problem(csv->problems, csv->source, csv->head_place.line, 1,
-                          _("the column '%s' is there twice; rename all but one"), _(heads[i].name));
+            ceduo_problem(csv->problems, csv->source, csv->head_place.line, 1, _("the column '%s' occurs twice; rename one"),
+                          _(heads[i].name));
 }
 
 bool ceduo_csv_read_head(struct csv *csv)

@@ -193,7 +193,7 @@ bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum c
     if (!fits)
         ceduo_csv_error(csv, cell, _("'%s' is not a number"), "\xe2\x80\xa6");
     else if (hidden && why != CSV_NUMERAL_TWO_WAYS && why != CSV_NUMERAL_OTHER_SIGN)
-        ceduo_csv_error(csv, cell, _("the character U+%04X cannot be meant in a number; remove it"), (unsigned)hidden);
+        ceduo_csv_error(csv, cell, _("the number contains the invisible character U+%04X; remove it"), (unsigned)hidden);
     else if (why == CSV_NUMERAL_TWO_WAYS && split_number(cell, &n) == CSV_NUMERAL_GOOD)
         ceduo_csv_error(csv, cell, _("'%s' can be read in two ways: write '%.*s%s' or '%.*s%c%s'"), word,
                         (int)strcspn(n.text, ".,"), n.text, strpbrk(n.text, ".,") + 1, (int)strcspn(n.text, ".,"), n.text,
@@ -204,8 +204,8 @@ bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum c
     else if (why == CSV_NUMERAL_TWO_NUMBERS)
         ceduo_csv_error(csv, cell, _("'%s': two numbers in one cell; keep one"), word);
     else if (why == CSV_NUMERAL_OTHER_SIGN)
-        ceduo_csv_error(csv, cell, _("'%s': decimals stand after a %s on line %zu; write all numbers in the same way"), word,
-                        csv->decimal == ',' ? _("comma") : _("dot"), csv->decimal_line);
+        ceduo_csv_error(csv, cell, _("the decimal sign of '%s' is not the %s of line %zu; use one sign in the whole table"),
+                        word, csv->decimal == ',' ? _("comma") : _("dot"), csv->decimal_line);
     else
         ceduo_csv_error(csv, cell, _("'%s' is not a number"), word);
     return false;
@@ -231,9 +231,7 @@ bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, do
     bool large = ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE;
     if (!large && *value >= lo && *value <= hi)
         return true;
-    if (!large && *value < lo && lo > -hi)
-        return ceduo_csv_error(csv, cell, _("'%s' is below %g %s"), text, lo, unit);
-    return ceduo_csv_error(csv, cell, _("beyond %g %s"), hi, unit);
+    return ceduo_csv_error(csv, cell, _("%s is outside the range %g to %g %s"), text, lo, hi, unit);
 }
 
 void ceduo_csv_note_decimal(struct csv *csv)

@@ -111,13 +111,13 @@ static bool read_coordinate(struct reader *r, enum column c, double *value)
     struct csv_cell cell = ceduo_csv_next_cell(&r->csv, r->columns[c]);
     bool none = ceduo_csv_is_empty(cell);
     if (c == ELEVATION && cell.n > 0 && none)
-        return ceduo_csv_error(&r->csv, cell, _("'%.*s' is no height; remove the row, or fill the gap in the terrain model"),
+        return ceduo_csv_error(&r->csv, cell, _("'%.*s' is not a height; remove the row, or fill the gap in the terrain model"),
                                (int)cell.n, cell.p);
     char text[CSV_NUMERAL_CAPACITY];
     if (c == ELEVATION && ceduo_csv_normalize_number(&r->csv, cell, text) == CSV_NUMERAL_GOOD &&
         (ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE || is_no_data(*value)))
         return ceduo_csv_error(&r->csv, cell,
-                               _("'%s' stands for no data; remove the row, or fill the gap in the terrain model"), text);
+                               _("'%s' marks missing data; remove the row, or fill the gap in the terrain model"), text);
     return ceduo_csv_number(&r->csv, cell, vertex->lo, vertex->hi, "m", value);
 }
 
@@ -196,13 +196,13 @@ static bool read_wkt(struct reader *r, const char *p, const char *end, size_t li
         inside = true;
         size_t n = read_tuple(&p, end, values);
         if (n < 2)
-            return reject_at(r, &raw, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
+            return reject_at(r, &raw, _("this is not WKT; write LINESTRING Z (x y z, x y z, …)"));
         if (n < 3 || (measured && n == 3))
-            return reject_at(r, &raw,
-                             _("the line has no heights: drape it over the terrain model (in QGIS: Drape), so that it is a "
-                               "LINESTRING Z"));
+            return reject_at(
+                r, &raw,
+                _("the line has no heights; drape it over the terrain model (in QGIS: Drape) to make it a LINESTRING Z"));
         if (is_no_data(values[2]))
-            return reject_at(r, &raw, _("a height of the line stands for no data; fill the gap in the terrain model"));
+            return reject_at(r, &raw, _("a height of the line marks missing data; fill the gap in the terrain model"));
         raw.x = values[0];
         raw.y = values[1];
         raw.z = values[2];
@@ -224,12 +224,11 @@ static bool check_table(const struct csv *csv, struct problems *problems)
     while (s->bytes[mark] == '<' && !memmem(s->bytes + mark, n, kinds[i].mark, strlen(kinds[i].mark)))
         i++;
     if (s->bytes[mark] == '<')
-        ceduo_problem_at(
-            problems, (struct problem_place){.source = s, .own = true},
-            _("%s is no profile; make one in QGIS: add the file and a terrain model with elevation to the map, open "
-              "View > Elevation Profile, click the line with Capture Curve from Feature, and export the "
-              "distance/elevation table as CSV"),
-            kinds[i].name);
+        ceduo_problem_at(problems, (struct problem_place){.source = s, .own = true},
+                         _("%s is not a profile; make one in QGIS: add the file and a terrain model with elevation to the map, "
+                           "open View > Elevation Profile, click the line with Capture Curve from Feature, and export the "
+                           "distance/elevation table as CSV"),
+                         kinds[i].name);
     return s->bytes[mark] != '<';
 }
 
@@ -269,10 +268,10 @@ static bool find_headless(struct reader *r, struct csv_place begin)
             r->columns[NORTH] = csv->cells_count == 4 ? 1 : CEDUO_CSV_NOT_FOUND;
             return true;
         }
-        return ceduo_problem(r->problems, csv->source, csv->place.line, 1,
-                             _("%zu columns without a head: write a first line that names them, such as x,y,z or "
-                               "distance,elevation"),
-                             csv->cells_count);
+        return ceduo_problem(
+            r->problems, csv->source, csv->place.line, 1,
+            _("%zu columns without a head; add a first line with their names, such as x,y,z or distance,elevation"),
+            csv->cells_count);
     }
     csv->headless = false;
     return ceduo_problem(r->problems, csv->source, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
@@ -287,9 +286,7 @@ static bool check_units(struct reader *r)
         if (column >= CEDUO_CSV_DUPLICATE || (c == DISTANCE && r->columns[EAST] != CEDUO_CSV_NOT_FOUND))
             continue;
         r->csv.source->foreign = false;
-        good = ceduo_csv_error(&r->csv, r->csv.heads[column],
-                               _("its values must be in m; convert them and name the "
-                                 "column '%s'"),
+        good = ceduo_csv_error(&r->csv, r->csv.heads[column], _("this column must be in %s; convert it and name it '%s'"), "m",
                                heads[c].name);
     }
     return good;
@@ -364,7 +361,7 @@ static bool read_rows(struct reader *r)
             if (is_wkt(wkt.p, wkt.n))
                 read_wkt(r, wkt.p, wkt.p + wkt.n, ceduo_csv_line(csv, wkt), name.n > 0 ? name : label);
             else if (!csv->headless)
-                ceduo_csv_error(csv, wkt, _("this is no WKT: write LINESTRING Z (x y z, x y z, …)"));
+                ceduo_csv_error(csv, wkt, _("this is not WKT; write LINESTRING Z (x y z, x y z, …)"));
             continue;
         }
         if (r->columns[LAYER] != CEDUO_CSV_NOT_FOUND)
@@ -390,13 +387,13 @@ static bool choose_layer(struct reader *r, const char *wanted)
     while (wanted && found < r->layers_count && strcmp(r->layers[found], wanted) != 0)
         found++;
     if (wanted && found == r->layers_count)
-        return ceduo_problem(r->problems, r->csv.source, 0, 0, _("there is no line '%s'; the file holds: %s"), wanted,
+        return ceduo_problem(r->problems, r->csv.source, 0, 0, _("no line '%s'; the file has: %s"), wanted,
                              ceduo_text_string(&names));
     if (found == SIZE_MAX && r->layers_count > 1)
         r->several = ceduo_arena_string(r->arena, ceduo_text_string(&names));
     if (r->several)
         return ceduo_problem(r->problems, r->csv.source, 0, 0,
-                             _("%zu lines in one file: %s; name one in the slope, such as 'layer: %s'"), r->layers_count,
+                             _("the file has %zu lines: %s; name one in the slope, such as 'layer: %s'"), r->layers_count,
                              ceduo_text_string(&names), r->layers[0]);
     for (size_t i = 0; i < r->n; i++)
         if (r->raw[i].layer == found)
@@ -420,7 +417,7 @@ static bool check_distances(struct reader *r)
         if (fabs(r->raw[i].along - r->raw[0].along - along) > 0.01 * along + 0.5)
             return reject_at(
                 r, &r->raw[i],
-                _("four columns without a head: write a first line that names them, such as x,y,distance,elevation"));
+                _("four columns without a head; add a first line with their names, such as x,y,distance,elevation"));
     }
     return true;
 }
@@ -447,8 +444,8 @@ static bool check_coordinates(struct reader *r, double length)
     bool lambert = east < 1.3e6 && south > 6e6;
     if (mercator && !boaga && !lambert)
         return ceduo_problem(r->problems, r->csv.source, r->csv.head_place.line, 1,
-                             _("the coordinates look like EPSG:3857 (Web Mercator), whose lengths are too long by a third; set "
-                               "the project to UTM and export the line again"));
+                             _("the coordinates look like EPSG:3857 (Web Mercator), which makes lengths too long by a third; "
+                               "set the project to UTM and export the line again"));
     if (mercator && boaga)
         ceduo_text_append(&r->notes, _("; x and y taken as metres on the ground, not as EPSG:3857"));
     return true;
@@ -462,7 +459,8 @@ static bool check_turns(struct reader *r)
         double one = step_between(a, b), two = step_between(b, c);
         double cosine = ((b->x - a->x) * (c->x - b->x) + (b->y - a->y) * (c->y - b->y)) / (one * two);
         if (one > TURN_STEP && two > TURN_STEP && cosine < -M_SQRT1_2)
-            return reject_at(r, b, _("the line turns back here; sort its points as numbers, or draw it again along the fall"));
+            return reject_at(r, b,
+                             _("the line turns back here; sort its points as numbers, or draw it again along the fall line"));
     }
     return true;
 }
@@ -481,7 +479,7 @@ static bool check_crossings(struct reader *r)
         for (size_t k = i + 2 * step; k < r->n; k += step) {
             const struct raw *a = &r->raw[i - step], *b = &r->raw[i], *c = &r->raw[k - step], *d = &r->raw[k];
             if (cross_product(a, b, c) * cross_product(a, b, d) < 0 && cross_product(c, d, a) * cross_product(c, d, b) < 0)
-                return reject_at(r, d, _("the line crosses itself here; draw it again along the fall"));
+                return reject_at(r, d, _("the line crosses itself here; draw it again along the fall line"));
         }
     return true;
 }
@@ -513,9 +511,9 @@ static bool check_heights(struct reader *r)
         bool jumps = suspicious && (i == 0 || is_jump(&r->raw[i - 1], &r->raw[i])) &&
                      (last + 1 == r->n || is_jump(&r->raw[last], &r->raw[last + 1]));
         for (size_t k = i; jumps && k <= last; k++)
-            reject_at(r, &r->raw[k],
-                      _("a height of 0 or 9999 among others stands for no data; remove the row, or fill the gap in the terrain "
-                        "model"));
+            reject_at(
+                r, &r->raw[k],
+                _("a single height of 0 or 9999 marks missing data; remove the row, or fill the gap in the terrain model"));
         if (i == 0 || last != i || i + 1 == r->n)
             continue;
         double up = r->raw[i].z - r->raw[i - 1].z, down = r->raw[i].z - r->raw[i + 1].z;
@@ -543,10 +541,10 @@ static bool is_text_order(const struct reader *r)
 static bool refuse_order(struct reader *r, const struct raw *raw, double before)
 {
     if (is_text_order(r))
-        return reject_at(r, raw, _("the rows stand in the order of their text; sort them by distance, as numbers"));
+        return reject_at(r, raw, _("the rows are sorted as text; sort them by distance, as numbers"));
     return ceduo_problem(r->problems, r->csv.source, raw->line, 1,
-                         _("distance %s does not lie beyond %s; distances must rise: sort the rows by distance"),
-                         NUMERAL(raw->along), NUMERAL(before));
+                         _("distances must rise, but %s follows %s; sort the rows by distance"), NUMERAL(raw->along),
+                         NUMERAL(before));
 }
 
 static void add_vertex(struct points *p, double x, double z)

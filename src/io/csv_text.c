@@ -106,7 +106,7 @@ static bool decode(struct csv *csv)
     for (const char *p = s->bytes; nul && p < nul; p++)
         line += *p == '\n';
     return !nul || ceduo_problem_at(csv->problems, (struct problem_place){.source = s, .own = true},
-                                    _("a NUL byte (U+0000) on line %zu cannot be meant; save it again as CSV in UTF-8"), line);
+                                    _("a NUL byte (U+0000) on line %zu; save it again as CSV in UTF-8"), line);
 }
 
 /* Replace CR by LF in files of old Macintosh, whose lines end in CR alone. */

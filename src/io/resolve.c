@@ -171,7 +171,7 @@ static const struct node *load_reference(struct resolver *r, const struct object
     const char *path = ceduo_resolve_path(r->arena, node, object->folder);
     if (!path)
         ceduo_problem_at(r->problems, ceduo_node_place(node, node->key),
-                         _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), node->text);
+                         _("cannot find '%s' next to this file or among the profiles (ceduo --list-profiles)"), node->text);
     const struct node *found = path ? read_file(r, node, path) : NULL;
     if (found && found->kind == NODE_MAP)
         found = merge_base(r, object, found, depth);
@@ -394,8 +394,7 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
     else if (!last && !child) {
         bool root = step->p == s->set->bytes;
         if (root && strcmp(key, "forest") == 0 && ceduo_node_get(map, "options"))
-            ceduo_problem(s->problems, s->set, 1, 1,
-                          _("this scene has options: write options[0].%.*s, or the name of another in place of 0"),
+            ceduo_problem(s->problems, s->set, 1, 1, _("this scene has options; write options[0].%.*s, or a name instead of 0"),
                           (int)s->length, step->p);
         else
             ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, _("there is no '%s' here"), key);

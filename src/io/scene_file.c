@@ -89,8 +89,7 @@ static bool apply_change(struct scene_file *file, struct source set, struct prob
     bool cut = all || (value->kind == NODE_SCALAR && !value->quoted && strstr(text, " #"));
     if (all || (takes_text && (cut || (value->kind == NODE_MAP && !value->flow))))
         return ceduo_problem(problems, source, 1, value_at + 1,
-                             cut ? _("'#' begins a comment; between quotes it is text: %s=\"%s\"")
-                                 : _("': ' makes a mapping; between quotes it is text: %s=\"%s\""),
+                             _("'%s' is special in YAML; write the text in quotes: %s=\"%s\""), cut ? "#" : ": ",
                              ceduo_text_string(&path), text);
     const struct node *root = ceduo_resolve_set(&file->arena, file->root, source, length, value, problems);
     if (root)
@@ -123,9 +122,9 @@ static void report_no_scene(struct scene_file *file, const char *path, const cha
     if (near)
         ceduo_text_append_joined(&names, "; ", _("did you mean '%s'?"), near);
     else if (known.bytes)
-        ceduo_text_append_joined(&names, "; ", _("scenes that come with it: %s"), known.bytes);
+        ceduo_text_append_joined(&names, "; ", _("shipped scenes: %s"), known.bytes);
     if (folders.bytes)
-        ceduo_text_append_joined(&names, " ", _("(looked for here and in %s)"), folders.bytes);
+        ceduo_text_append_joined(&names, " ", _("(searched here and in %s)"), folders.bytes);
     ceduo_problem(problems, &(struct source){.name = path}, 0, 0, _("cannot read it: %s%s"), strerror(ENOENT),
                   ceduo_text_string(&names));
 }

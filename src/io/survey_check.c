@@ -87,35 +87,33 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
         asked[SURVEY_HEIGHTS] = true;
         return ceduo_csv_error(
             &r->csv, get_head(r, HEIGHT),
-            _("a mean height of %.0f m: name the column 'height_m' if it holds heights in metres, 'altitude' if it holds "
-              "altitudes"),
+            _("the mean height is %.0f m; name the column 'height_m' for heights in metres, 'altitude' for altitudes"),
             s.height);
     }
     if (!sized && s.dbh > DBH_BARE && s.height < SLENDERNESS_MIN * s.height_of_dbh) {
         asked[SURVEY_DIAMETERS] = true;
-        return ceduo_csv_error(
-            &r->csv, head,
-            size == DBH ? _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column 'dbh_mm' if it is "
-                            "in millimetres, 'dbh_cm' if it is in centimetres")
-                        : _("a mean diameter of %.0f cm with a mean height of %.3g m: name the column "
-                            "'circumference_mm' if it is in millimetres, 'circumference_cm' if it is in centimetres"),
-            s.dbh * 100, s.height);
+        return ceduo_csv_error(&r->csv, head,
+                               size == DBH ? _("the mean diameter is %.0f cm, the mean height %.3g m; name the column 'dbh_mm' "
+                                               "for millimetres, 'dbh_cm' for centimetres")
+                                           : _("the mean diameter is %.0f cm, the mean height %.3g m; name the column "
+                                               "'circumference_mm' for millimetres, 'circumference_cm' for centimetres"),
+                               s.dbh * 100, s.height);
     }
     if (basal > BASAL_MAX)
         return ceduo_csv_error(
             &r->csv, get_head(r, area),
-            _("a basal area of %.0f m2/ha is more than any forest has; are the areas in m2 and the diameters in cm?"), basal);
+            _("the basal area is %.0f m2/ha, more than any forest has; check that areas are in m2 and diameters in cm"), basal);
     if (basal <= BASAL_BARE || (sized && laid))
         return true;
     asked[SURVEY_AREAS] = !laid;
     asked[SURVEY_DIAMETERS] = !sized;
-    return ceduo_csv_error(
-        &r->csv, sized ? get_head(r, area) : head,
-        size == DBH ? _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'dbh_cm' if it is right, "
-                        "'dbh_mm' if the diameters are in millimetres")
-                    : _("a basal area of %.0f m2/ha is very high: name the columns '%s' and 'circumference_cm' if it "
-                        "is right, 'circumference_mm' if the circumferences are in millimetres"),
-        basal, HEAD(area));
+    return ceduo_csv_error(&r->csv, sized ? get_head(r, area) : head,
+                           size == DBH
+                               ? _("the basal area is very high, %.0f m2/ha; name the columns '%s' and 'dbh_cm' if it is "
+                                   "right, 'dbh_mm' if the diameters are in millimetres")
+                               : _("the basal area is very high, %.0f m2/ha; name the columns '%s' and 'circumference_cm' if "
+                                   "it is right, 'circumference_mm' if the circumferences are in millimetres"),
+                           basal, HEAD(area));
 }
 
 /* True if two plots have equal names and sites, ignoring case. */
@@ -138,11 +136,10 @@ static bool check_sites(const struct survey_reader *r, const struct survey_plot 
     LOCAL_TEXT(name);
     const struct csv_cell head = r->csv.heads[r->columns[SITE + site]];
     ceduo_text_append_escaped_n(&name, head.p, head.n);
-    return ceduo_problem(
-        r->problems, r->csv.source, line, 1,
-        _("the rows of plot '%.*s' change the column '%s' in turns: sort the rows by it if it is where the plot "
-          "lies; rename it if not"),
-        a->name.n < 100 ? (int)a->name.n : 100, a->name.p, ceduo_text_string(&name));
+    return ceduo_problem(r->problems, r->csv.source, line, 1,
+                         _("the rows of plot '%.*s' alternate between values of '%s'; sort the rows by this column if it is "
+                           "the site of the plot, otherwise rename it"),
+                         a->name.n < 100 ? (int)a->name.n : 100, a->name.p, ceduo_text_string(&name));
 }
 
 /* Compare the names of plots. Stops at the first error. */
@@ -153,11 +150,10 @@ static bool check_plots(struct survey_reader *r)
         for (size_t k = 0; k < i && good; k++) {
             const struct survey_plot *a = &r->plots[k], *b = &r->plots[i];
             if (differ_in_case(a, b))
-                good =
-                    ceduo_problem(r->problems, r->csv.source, b->line, 1,
-                                  _("the names of this plot and of the plot on line %zu differ only in case; write both in the "
-                                    "same way, or rename one"),
-                                  a->line);
+                good = ceduo_problem(
+                    r->problems, r->csv.source, b->line, 1,
+                    _("the names of this plot and of the plot on line %zu differ only in case; make them equal, or rename one"),
+                    a->line);
             else if (ceduo_csv_compare(a->name, b->name) == 0) {
                 r->split = true;
                 good = check_sites(r, a, b);
@@ -192,7 +188,7 @@ static void describe_plots(const struct survey_reader *r, struct text *line)
             const struct csv_cell head = r->csv.heads[r->columns[c]];
             LOCAL_TEXT(name);
             ceduo_text_append_escaped_n(&name, head.p, head.n);
-            ceduo_text_format(line, _(", told apart by %s"), ceduo_text_string(&name));
+            ceduo_text_format(line, _(", distinguished by %s"), ceduo_text_string(&name));
         }
 }
 

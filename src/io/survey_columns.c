@@ -220,10 +220,8 @@ static bool check_unit(const struct csv *csv, enum column c)
         n++;
     if (ceduo_csv_matches(cell.p, n, VAGUE))
         return true; /* h (hours) */
-    LOCAL_TEXT(name);
-    ceduo_text_append_escaped_n(&name, cell.p, cell.n);
-    return ceduo_csv_error(csv, cell, _("'%s': its values must be in %s; convert them and name the column '%s'"),
-                           ceduo_text_string(&name), _(head->unit), _(head->name));
+    return ceduo_csv_error(csv, cell, _("this column must be in %s; convert it and name it '%s'"), _(head->unit),
+                           _(head->name));
 }
 
 /* Report a missing column, and the columns of the table unless it is foreign. */

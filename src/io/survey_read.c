@@ -41,9 +41,7 @@ static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum csv_u
     if (!unit && *value > SLOPE_BARE) {
         r->answers->asked[SURVEY_SLOPES] = true;
         return ceduo_csv_error(
-            &r->csv, cell,
-            _("a slope of %g without a unit: name the column 'slope_deg' if it is in degrees, 'slope (%%)' if "
-              "it is in percent"),
+            &r->csv, cell, _("a slope of %g has no unit; name the column 'slope_deg' for degrees, 'slope (%%)' for percent"),
             *value);
     }
     r->marked_slopes |= own != CSV_UNIT_NONE;
@@ -101,7 +99,7 @@ static bool read_diameter(struct survey_reader *r, enum column c, double *value)
     if (cell.n < sizeof text)
         memcpy(text, cell.p, cell.n);
     if (sscanf(text, "%d - %d%n", &lo, &hi, &n) == 2 && n == (int)cell.n && hi > lo && lo >= 0)
-        return ceduo_csv_error(&r->csv, cell, _("'%s' is a class: write its middle, %g"), text, (lo + hi) / 2.0);
+        return ceduo_csv_error(&r->csv, cell, _("'%s' is a class; write its middle, %g"), text, (lo + hi) / 2.0);
     return read_number(r, c, value);
 }
 
@@ -129,7 +127,7 @@ static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
         r->filled++;
     }
     if (name->n == 0)
-        return ceduo_csv_error(&r->csv, *name, _("'%s' is missing: give it in each row"), HEAD(PLOT));
+        return ceduo_csv_error(&r->csv, *name, _("'%s' is missing; give it in each row"), HEAD(PLOT));
     size_t i = r->plots_count;
     while (i > 0 && !(ceduo_csv_compare(r->plots[i - 1].name, *name) == 0 && are_same_sites(r->plots[i - 1].sites, sites)))
         i--; /* usually the last plot */
@@ -154,7 +152,7 @@ static bool check_area(struct survey_reader *r, enum column c, double value)
     if ((c != AREA && c != RADIUS) || !(area < AREA_BARE) || r->units[c])
         return true;
     r->answers->asked[SURVEY_AREAS] = true;
-    return ceduo_csv_error(&r->csv, r->fields[c], _("a plot of %.3g m2 is very small; name the column '%s' if it is right"),
+    return ceduo_csv_error(&r->csv, r->fields[c], _("a plot of %.3g m2 is very small; if it is right, name the column '%s'"),
                            area, HEAD(c));
 }
 
@@ -167,17 +165,18 @@ static bool read_plot(struct survey_reader *r, struct survey_plot *plot)
         bool read = read_number(r, c, &now) && check_area(r, c, now),
              differs = read && !isnan(now) && !isnan(*known) && now != *known;
         if (differs && (c == AREA || c == RADIUS))
+            ceduo_csv_error(&r->csv, r->fields[c],
+                            _("'%s' is %g in another row of this plot, here %g; if thin stems were measured on a smaller area, "
+                              "make a survey of each area and merge the stands"),
+                            HEAD(c), *known, now);
+        else if (differs && c == STOOLS)
             ceduo_csv_error(
                 &r->csv, r->fields[c],
-                _("'%s' is %g elsewhere for this plot, here %g; if thin stems were measured on a smaller area, make a "
-                  "survey of each area and join the stands: as two plots they would count half"),
-                HEAD(c), *known, now);
-        else if (differs && c == STOOLS)
-            ceduo_csv_error(&r->csv, r->fields[c],
-                            _("'%s' is %g elsewhere for this plot, here %g; name the column '%s' if it numbers the stools"),
-                            HEAD(c), *known, now, HEAD(STOOL));
+                _("'%s' is %g in another row of this plot, here %g; if it numbers the stools, name the column '%s'"), HEAD(c),
+                *known, now, HEAD(STOOL));
         else if (differs)
-            ceduo_csv_error(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), HEAD(c), *known, now);
+            ceduo_csv_error(&r->csv, r->fields[c], _("'%s' is %g in another row of this plot, here %g; correct one"), HEAD(c),
+                            *known, now);
         if (read && c == STOOLS && now != floor(now) && !isnan(now))
             read = ceduo_csv_error(&r->csv, r->fields[c], _("'%s' must be a whole number"), HEAD(c));
         good = good && read && !differs;
@@ -187,8 +186,8 @@ static bool read_plot(struct survey_reader *r, struct survey_plot *plot)
     plot->year = plot->year.n == 0 ? year : plot->year;
     if (year.n > 0 && ceduo_csv_compare(year, plot->year) != 0)
         return ceduo_csv_error(&r->csv, year,
-                               _("this plot was surveyed in the years %.*s and %.*s: keep the rows of one year, or rename the "
-                                 "column if it is no year of a survey"),
+                               _("this plot was surveyed in the years %.*s and %.*s; keep the rows of one year, or rename the "
+                                 "column if it is not the year of the survey"),
                                plot->year.n < 20 ? (int)plot->year.n : 20, plot->year.p, year.n < 20 ? (int)year.n : 20,
                                year.p);
     if (r->fields[AREA].n > 0 && r->fields[RADIUS].n > 0)
@@ -221,7 +220,8 @@ static bool read_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
     bool good = true;
     int found = ceduo_survey_find_word(&ceduo_survey_kind_words, kind);
     if (!tally && found < 0)
-        return ceduo_csv_error(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"), SHOWN(kind));
+        return ceduo_csv_error(&r->csv, kind, _("'%.*s' is not a kind of stem; write shoot, standard, tree or stump"),
+                               SHOWN(kind));
     for (enum column c = SHOOTS; c <= TREES; c++) {
         good = read_count(r, c, &counts[c - SHOOTS]) && good;
         sum += counts[c - SHOOTS];
@@ -230,8 +230,8 @@ static bool read_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
         return false;
     for (int k = 0; !tally && k < CEDUO_SURVEY_STUMP; k++)
         if (k != found && counts[k] > 0)
-            return ceduo_csv_error(&r->csv, r->fields[SHOOTS + k], _("this row is of another kind; leave '%s' empty here"),
-                                   HEAD(SHOOTS + k));
+            return ceduo_csv_error(&r->csv, r->fields[SHOOTS + k],
+                                   _("this row has another kind of stem; leave '%s' empty here"), HEAD(SHOOTS + k));
     bool own = !tally && found < CEDUO_SURVEY_STUMP && r->fields[SHOOTS + found].n > 0;
     if (count.n > 0 && (tally || own) && given != sum)
         return ceduo_csv_error(&r->csv, count,
@@ -240,7 +240,7 @@ static bool read_counts(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
     if (tally || own)
         return true;
     if (count.n == 0 && r->columns[COUNT] != CEDUO_CSV_NOT_FOUND)
-        return ceduo_csv_error(&r->csv, count, _("'%s' is missing: write the number of stems, 0 for none"), HEAD(COUNT));
+        return ceduo_csv_error(&r->csv, count, _("'%s' is missing; write the number of stems, 0 for none"), HEAD(COUNT));
     counts[found] = r->columns[COUNT] == CEDUO_CSV_NOT_FOUND ? 1 : given;
     return true;
 }
@@ -254,8 +254,7 @@ static bool read_status(struct survey_reader *r, size_t counts[CEDUO_SURVEY_KIND
     if (r->columns[STATUS] == CEDUO_CSV_NOT_FOUND)
         return true;
     if (status.n > 0 && found < 0)
-        return ceduo_csv_error(&r->csv, status,
-                               _("'%.*s' is no status: live, dead or cut; rename the column if it is something else"),
+        return ceduo_csv_error(&r->csv, status, _("'%.*s' is not a status; write live, dead or cut, or rename the column"),
                                SHOWN(status));
     r->unmarked += status.n == 0 ? sum : 0;
     if (found <= SURVEY_LIVE)
@@ -283,15 +282,15 @@ static bool read_dbh(struct survey_reader *r, double *dbh)
     *dbh = isnan(*dbh) ? girth / M_PI : *dbh;
     const enum column missing = r->columns[DBH] == CEDUO_CSV_NOT_FOUND ? CIRCUMFERENCE : DBH;
     if (isnan(*dbh))
-        return ceduo_csv_error(csv, fields[missing], _("'%s' is missing: give it in each row"), HEAD(missing));
+        return ceduo_csv_error(csv, fields[missing], _("'%s' is missing; give it in each row"), HEAD(missing));
     if (*dbh > DBH_MAX && r->units[c] == CSV_UNIT_OTHER)
-        return ceduo_csv_error(csv, fields[c], _("%g cm: more than %d cm; correct it"), *dbh, DBH_MAX);
+        return ceduo_csv_error(csv, fields[c], _("%g cm is more than %d cm; correct it"), *dbh, DBH_MAX);
     if (*dbh > DBH_MAX)
-        return ceduo_csv_error(csv, fields[c],
-                               c == DBH ? _("%g cm: more than %d cm; is it in mm? Then name the column 'dbh_mm'")
-                                        : _("a diameter of %g cm: more than %d cm; is the circumference in mm? Then name the "
-                                            "column 'circumference_mm'"),
-                               *dbh, DBH_MAX);
+        return ceduo_csv_error(
+            csv, fields[c],
+            c == DBH ? _("%g cm is more than %d cm; name the column 'dbh_mm' if it is in mm")
+                     : _("a diameter of %g cm is more than %d cm; name the column 'circumference_mm' if it is in mm"),
+            *dbh, DBH_MAX);
     *dbh /= 100;
     return true;
 }
@@ -309,11 +308,10 @@ static bool read_sizes(struct survey_reader *r, struct ceduo_survey_stem *stem)
         return false;
     double lo = stump ? 0 : CEDUO_BREAST_HEIGHT, hi = stump ? STUMP_MAX : ceduo_survey_heads[HEIGHT].hi;
     if (stem->height <= lo || stem->height > hi)
-        return ceduo_csv_error(
-            csv, fields[HEIGHT],
-            _("%g m is no height of a stem of this kind: it must be above %g and at most %g m; leave it empty if "
-              "it was not measured"),
-            stem->height, lo, hi);
+        return ceduo_csv_error(csv, fields[HEIGHT],
+                               _("%g m is outside the range of heights here (above %g, at most %g m); leave the cell empty if "
+                                 "it was not measured"),
+                               stem->height, lo, hi);
     enum column extra = stem->kind != CEDUO_SURVEY_SHOOT && !isnan(stem->spacing) ? SPACING
                         : !stump && !isnan(stem->energy)                          ? ENERGY
                                                                                   : PLOT;
@@ -376,10 +374,9 @@ static bool read_fields(struct survey_reader *r)
             cell->n = 0;
         bool name = c == PLOT || c == SPECIES || c == GENUS || c == KIND || c == STOOL || c == STATUS || c >= SITE;
         if (name && memchr(cell->p, '"', cell->n))
-            good = ceduo_csv_error(&r->csv, *cell, _("a quote within a name is a slip; remove it"));
+            good = ceduo_csv_error(&r->csv, *cell, _("a stray quote in this cell; remove it"));
         else if (name && memchr(cell->p, '\n', cell->n))
-            good =
-                ceduo_csv_error(&r->csv, *cell, _("a line break within a name is a slip; remove it, and the quotes around it"));
+            good = ceduo_csv_error(&r->csv, *cell, _("a line break in a name; remove it and the quotes around it"));
     }
     return good;
 }
@@ -469,7 +466,7 @@ static bool check_numbering(struct survey_reader *r)
     r->csv.next = begin;
     return !numbering || rises < 2 ||
            ceduo_csv_error(&r->csv, r->csv.heads[r->columns[COUNT]],
-                           _("this column goes 1, 2, 3: name it 'id' if it numbers the stems, 'count' if it counts them"));
+                           _("this column goes 1, 2, 3; name it 'id' if it numbers the stems, 'count' if it counts them"));
 }
 
 /* ---- stools and areas ---- */
@@ -528,11 +525,10 @@ static bool number_stools(struct survey_reader *r, const struct survey_plot *plo
             _("the stool of this shoot is missing; number the stools (column 'stool'), or give the number of stools "
               "of the plot (column 'stools')"));
     if (loose > 0 && loose < n)
-        return refuse_loose(r, plot, _("the stool of this shoot is missing, but other shoots of the plot have one"));
+        return refuse_loose(r, plot, _("the stool of this shoot is missing, but other shoots of the plot have one; add it"));
     if (given > (double)n || (loose > 0 && given == 0))
-        return ceduo_problem(
-            r->problems, r->csv.source, plot->line, 1,
-            _("%g stools with %zu live shoots: each stool needs at least one; count stools with live shoots only"), given, n);
+        return ceduo_problem(r->problems, r->csv.source, plot->line, 1,
+                             _("%g stools do not match %zu live shoots; count the stools with live shoots"), given, n);
     if (loose > 0) {
         for (size_t i = 0; i < n; i++)
             r->stems[shoots[i].stem].stool = begin + i % (size_t)given;
@@ -545,7 +541,7 @@ static bool number_stools(struct survey_reader *r, const struct survey_plot *plo
     }
     if (!isnan(given) && given != (double)(r->stools_count - begin))
         return ceduo_problem(r->problems, r->csv.source, plot->line, 1,
-                             _("'%s' is %g, but the shoots of this plot stand on %zu; correct it, or remove the column"),
+                             _("'%s' is %g, but the shoots of this plot have %zu stools; correct it, or remove the column"),
                              HEAD(STOOLS), given, r->stools_count - begin);
     return true;
 }
@@ -576,7 +572,7 @@ static void measure_plots(struct survey_reader *r, double *areas)
         areas[i] = ceduo_survey_horizontal(area, isnan(slope) ? 0 : slope * M_PI / 180);
         if (isnan(area))
             ceduo_problem(r->problems, r->csv.source, r->plots[i].line, 1,
-                          _("this plot has no area_m2 and no radius_m; give one, or remove the row if it is no plot"));
+                          _("this plot has no area_m2 and no radius_m; give one, or remove the row if it is not a plot"));
     }
 }
 
@@ -601,7 +597,7 @@ static void read_rows(struct survey_reader *r)
             return;
     }
     if (r->plots_count == 0)
-        ceduo_problem(r->problems, r->csv.source, 0, 0, _("there is no plot: no row under the first"));
+        ceduo_problem(r->problems, r->csv.source, 0, 0, _("the table has no row"));
 }
 
 /* Set the units, or ignore the heights, as the user answered. */

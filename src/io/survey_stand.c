@@ -108,14 +108,14 @@ static void print_comments(const struct writer *w)
     for (int k = -1; k < (int)n; k++)
         if ((own = ceduo_survey_basal_area(s, k)) > 0)
             ceduo_text_format(out, "%s%s %.0f %%", printed++ ? ", " : _("# basal area: "),
-                              k < 0 ? _("not said") : _(list[k].common), 100 * own / all);
+                              k < 0 ? _("not given") : _(list[k].common), 100 * own / all);
     ceduo_text_append(out, printed ? "\n" : "");
     if (!(a->per_ha[CEDUO_SURVEY_STUMP].mean > 0) || w->stumps)
         return;
     ceduo_text_append(
         out, /* the energy of a stump has no default: the user must give it */
-        _("# The stumps are not in the stand: they need a height_m, and the energy_kJ that one takes from a rock,\n"
-          "# in at least one row of the survey, or here:\n"));
+        _("# The stumps are not in the stand. They need height_m and energy_kJ, the energy that one absorbs from a "
+          "rock,\n# in at least one row of the survey, or here:\n"));
     ceduo_text_format(out, "# stumps: {per_ha: %s, diameter_m: %s, height_m: %s, energy_kJ: ?}\n",
                       ROUNDED(a->per_ha[CEDUO_SURVEY_STUMP].mean), ROUNDED(a->stump_diameter),
                       isnan(a->stump_height) ? "?" : ROUNDED(a->stump_height));
@@ -276,17 +276,14 @@ static void print_future(const struct writer *w)
     const struct node *stand = find_shipped(&arena, w->answer, &name);
     const struct node *growth = ceduo_node_get(stand, "growth"), *cutting = ceduo_node_get(stand, "cutting");
     if (!growth || !cutting) {
-        ceduo_text_append(
-            w->out, _("# No stand of this species comes with ceduo: write its growth and cutting for the years to come.\n"));
+        ceduo_text_append(w->out, _("# ceduo has no stand of this species. Add growth and cutting for future years.\n"));
         return;
     }
-    ceduo_text_format(
-        w->out,
-        _("# Growth and cutting are assumed: they are those of the stand '%s' that comes with ceduo.\n"
-          "# A cut leaves as many standards as were counted. Check rotation_years and stay_per_ha; a selection coppice "
-          "has cohorts: 3.\n"),
-        ceduo_text_string(&name));
-    ceduo_text_format(&what, _("as in the stand '%s' that comes with ceduo; not of this survey"), ceduo_text_string(&name));
+    ceduo_text_format(w->out,
+                      _("# Growth and cutting are assumed, as in the shipped stand '%s'.\n# A cut leaves the counted number of "
+                        "standards. Check rotation_years and stay_per_ha; a selection coppice has cohorts: 3.\n"),
+                      ceduo_text_string(&name));
+    ceduo_text_format(&what, _("as in the shipped stand '%s', not from this survey"), ceduo_text_string(&name));
     print_assumed(w, "growth", growth, ceduo_text_string(&what));
     print_assumed(w, "cutting", cutting, ceduo_text_string(&what));
 }
@@ -367,7 +364,7 @@ static void print_stand(const struct writer *w)
         ceduo_text_format(w->out, "stumps: {per_ha: %s, diameter_m: %s, height_m: %s, energy_kJ: %s,\n  ",
                           ROUNDED(a->per_ha[CEDUO_SURVEY_STUMP].mean), ROUNDED(a->stump_diameter), ROUNDED(a->stump_height),
                           ROUNDED(a->stump_energy / 1000));
-        print_source(w->out, true, _("counted; what one takes from a rock is not measured"), "}\n");
+        print_source(w->out, true, _("counted; the energy that one absorbs is not measured"), "}\n");
     }
     if (a->stools.mean > 0)
         print_future(w);
@@ -386,9 +383,10 @@ static bool check(const struct writer *w, struct problems *problems)
     double highest = ceduo_schema_at("forest[0].stand.trees[0].height_m")->hi;
     for (size_t i = 0; i < a->classes_count; i++)
         if (a->classes[i].per_ha.mean > densest)
-            return ceduo_problem(problems, &source, 0, 0,
-                                 _("%.0f stems of one class per hectare are more than %.0f; are the areas in m2?"),
-                                 a->classes[i].per_ha.mean, densest);
+            return ceduo_problem(
+                problems, &source, 0, 0,
+                _("%.0f stems per hectare of one class exceed the limit of %.0f; check that the areas are in m2"),
+                a->classes[i].per_ha.mean, densest);
     for (size_t i = 0; i < 2; i++) {
         const struct ceduo_survey_heights *h = heights[i];
         double tallest = h->from == CEDUO_HEIGHTS_CURVE || h->from == CEDUO_HEIGHTS_SHOOTS
@@ -397,8 +395,7 @@ static bool check(const struct writer *w, struct problems *problems)
         if (tallest > highest)
             return ceduo_problem(
                 problems, &source, 0, 0,
-                _("Näslund's curve makes a stem of %.4g cm %.0f m tall, more than %.0f; measure the heights of thick "
-                  "stems, too"),
+                _("by Näslund's curve a stem of %.4g cm is %.0f m tall, more than %.0f m; measure heights of thick stems, too"),
                 h->thickest * 100, tallest, highest);
     }
     return true;

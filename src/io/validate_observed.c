@@ -97,7 +97,7 @@ void ceduo_arrange_observed(struct validator *v)
         for (size_t i = 0; i < uncertainty->n; i++)
             if (strcmp(uncertainty->items[i]->key, "draws") != 0 && strcmp(uncertainty->items[i]->key, "rows") != 0)
                 ceduo_problem_at(v->problems, ceduo_node_place(uncertainty->items[i], "uncertainty"),
-                                 _("unknown key; known here: draws, rows"));
+                                 _("unknown key; known here: %s"), "draws, rows");
         root = ceduo_node_without(v->arena, root, "uncertainty");
         root = rows ? ceduo_node_with(v->arena, root, "uncertainty", rows) : root;
     }
@@ -181,15 +181,15 @@ static bool find_columns(const struct entry *e, struct table *t)
     const char *key = ceduo_node_get(e->node, "column") ? "column" : "csv", *names = ceduo_text_string(&all);
     if (map)
         return ceduo_reject(e->v, e->path, key,
-                            _("the table has x and y, which are places on a map; name the column that holds the distance "
-                              "along the slope (column); it has: %s"),
+                            _("x and y are coordinates on a map; name the column with the distance along the slope in "
+                              "'column'; the table has: %s"),
                             names);
-    if (*column == CEDUO_CSV_DUPLICATE)
-        return ceduo_reject(e->v, e->path, key, _("the table has this column twice; rename one: %s"), names);
+    if (*column == CEDUO_CSV_DUPLICATE) /* already reported */
+        return false;
     if (*column == CEDUO_CSV_NOT_FOUND && e->values->column)
         return ceduo_reject(e->v, e->path, key, _("the table has no column '%s'; it has: %s"), e->values->column, names);
     if (*column == CEDUO_CSV_NOT_FOUND)
-        return ceduo_reject(e->v, e->path, key, _("name the column that holds the values (column); the table has: %s"), names);
+        return ceduo_reject(e->v, e->path, key, _("name the column with the values in 'column'; the table has: %s"), names);
     if (t->only_name && t->columns[ONLY] >= CEDUO_CSV_DUPLICATE)
         return ceduo_reject(e->v, e->path, "only", _("the table has no column '%s'; it has: %s"), t->only_name, names);
     t->columns[VALUES] = *column;
@@ -204,7 +204,7 @@ static bool is_selected(const struct table *t)
         return true;
     struct csv_cell cell = ceduo_csv_next_cell(&t->csv, t->columns[ONLY]);
     if (ceduo_csv_has_stray_quote(cell))
-        return ceduo_csv_error(&t->csv, cell, _("a quote within a cell; remove it, or put the cell in quotes"));
+        return ceduo_csv_error(&t->csv, cell, _("a stray quote in this cell; remove it"));
     return ceduo_csv_equals(cell, t->only_word) || (ceduo_number_read(t->only_word, &word) == CEDUO_NUMBER_GOOD &&
                                                     ceduo_csv_value(&t->csv, cell, &number) && number == word);
 }
@@ -246,7 +246,7 @@ static bool read_table(const struct entry *e, const char *path)
             to->values_count++;
     if (to->values_count > 0)
         describe_table(e, &t, path);
-    return to->values_count > 0 || ceduo_reject(v, e->path, "csv", _("the table has no such row")); /* untaken: complaint */
+    return to->values_count > 0 || ceduo_reject(v, e->path, "csv", _("no row of the table matches")); /* untaken: complaint */
 }
 
 /* Load the values from a table, unless they are listed. Return false on error. */
@@ -263,12 +263,12 @@ static bool load_values(const struct entry *e)
         return read_table(e, path) && v->problems->met == before;
     if (csv)
         return ceduo_reject(v, e->path, "csv",
-                            _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), csv->text);
+                            _("cannot find '%s' next to this file or among the profiles (ceduo --list-profiles)"), csv->text);
     if (list && values->values_count == 0)
         return ceduo_reject(v, e->path, e->kind_row->list, _("the list is empty"));
     const char *table_key = values->column ? "column" : values->only ? "only" : NULL;
     /* untaken: complaint */
-    return !table_key || ceduo_reject(v, e->path, table_key, _("names something of a table; name the table, csv"));
+    return !table_key || ceduo_reject(v, e->path, table_key, _("this needs a table; name it in 'csv'"));
 }
 
 /* Check that either values are given, or their mean, sd and number. */
@@ -294,9 +294,10 @@ static bool check_each(const struct entry *e)
         if (stops && !ceduo_check_on_slope(e->v, path, "", x))
             return false;
         if (stops && x < values->seen_from)
-            return ceduo_reject(v, path, "", _("%s lies before seen_from_m, %s"), NUMERAL(x), NUMERAL(values->seen_from));
+            return ceduo_reject(v, path, "", _("%s lies before the begin of the searched area (%s)"), NUMERAL(x),
+                                NUMERAL(values->seen_from));
         if (!stops && x < 0)
-            return ceduo_reject(v, path, "", _("%s is below 0"), NUMERAL(x));
+            return ceduo_reject(v, path, "", _("%s is below %s%s%s"), NUMERAL(x), "0", "", "");
     }
     return true;
 }
@@ -308,7 +309,7 @@ static bool check_released(const struct entry *e)
     unsigned long long observed = e->kind_row->list ? values->values_count : values->count, released = values->of;
     /* untaken: complaint */
     return released == 0 || observed <= released ||
-           ceduo_reject(e->v, e->path, "of", _("%llu were seen of %llu released"), observed, released);
+           ceduo_reject(e->v, e->path, "of", _("%llu observed, but only %llu released; correct one"), observed, released);
 }
 
 static bool check_values(const struct entry *e)
@@ -321,7 +322,7 @@ static bool check_values(const struct entry *e)
     case CEDUO_WHERE_AT_PLACE:
         return (!e->kind_row->list || check_form(e)) && ceduo_check_on_slope(e->v, e->path, "x_m", values->x) &&
                /* untaken: complaint */
-               (values->x > last || ceduo_reject(e->v, e->path, "x_m", _("%s does not lie beyond the release, %s m"),
+               (values->x > last || ceduo_reject(e->v, e->path, "x_m", _("%s must lie beyond the release (%s m)"),
                                                  NUMERAL(values->x), NUMERAL(last))) &&
                (e->kind_row->list ? check_each(e) : check_released(e));
     case CEDUO_WHERE_ON_STEMS: /* a rock may hit several stems, so no check of the number released */
@@ -407,7 +408,7 @@ static void validate_row(struct validator *v, const char *path, struct observed 
         ceduo_validate_rock(v, ceduo_asprintf(v, "%s.rock", path), &row->rock);
         shared.rock = &row->rock;
     } else if (v->sized_by_blocks) {
-        ceduo_reject(v, path, "", _("'rock' is missing: blocks have many sizes; give the rock that was observed"));
+        ceduo_reject(v, path, "", _("'rock' is missing; give the observed rock, because 'blocks' have many sizes"));
     }
     if (ceduo_node_get(node, "release")) {
         ceduo_validate_release(v, ceduo_asprintf(v, "%s.release", path), &row->release);
@@ -444,7 +445,7 @@ static void validate_row(struct validator *v, const char *path, struct observed 
         if (strncmp(last, key, n + 1) != 0)
             ceduo_text_append_joined(&keys, last[0] ? ", " : "", "%.*s", (int)n, key);
     }
-    ceduo_reject(v, path, "", _("say what was seen, one of: %s"), ceduo_text_string(&keys));
+    ceduo_reject(v, path, "", _("no observation; give one of: %s"), ceduo_text_string(&keys));
 }
 
 void ceduo_validate_observed(struct validator *v)

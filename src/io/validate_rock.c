@@ -52,13 +52,12 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct ced
     bool by_blocks = blocks && !by_mass && n == 0;
     for (size_t i = 0; keys[i] && shape != CEDUO_SPHERE && !by_blocks; i++)
         if (!ceduo_is_given(v, path, keys[i]))
-            ceduo_reject(v, path, "", _("'%s' is missing: the shape '%s' needs it"), keys[i], name);
+            ceduo_reject(v, path, "", _("'%s' is missing; the shape '%s' needs it"), keys[i], name);
     if (shape == CEDUO_SPHERE && n != 1 && !by_blocks)
         ceduo_reject(v, path, "",
                      blocks
-                         ? _("blocks say how large the rocks are: a sphere needs none of diameter_m, volume_m3 and mass_kg, or "
-                             "one, here %d are given")
-                         : _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"),
+                         ? _("with 'blocks' a sphere needs at most one of diameter_m, volume_m3 and mass_kg; here %d are given")
+                         : _("a sphere needs one of diameter_m, volume_m3 and mass_kg; here %d are given"),
                      n);
     if (shape != CEDUO_SPHERE && ceduo_node_get(node, "mass_kg") && ceduo_node_get(node, "density_kg_m3"))
         ceduo_reject(v, path, "density_kg_m3", _("%s already says this; keep one of the two"), "mass_kg");
@@ -81,7 +80,7 @@ void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_
         return;
     double end = slope->x[slope->vertices - 1], first = ceduo_number_lowest(*x), last = ceduo_number_highest(*x);
     if (!(first >= 0) || !(last < end))
-        ceduo_reject(v, path, "", _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
+        ceduo_reject(v, path, "", _("%s lies outside the slope; a release must be at least %s and less than %s m"),
                      NUMERAL((first >= 0 ? last : first) + v->origin), NUMERAL(v->origin), NUMERAL(end + v->origin));
 }
 
@@ -138,9 +137,10 @@ void ceduo_validate_blocks(struct validator *v)
     if (ceduo_node_get(v->root, "rocks_per_year"))
         ceduo_reject(v, "rocks_per_year", "", _("%s already says this; keep one of the two"), "blocks");
     if (blocks->kind == NODE_MAP && !ceduo_is_given(v, "blocks", "exponent"))
-        ceduo_reject(v, "blocks", "", _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
+        ceduo_reject(v, "blocks", "",
+                     _("'exponent' is missing; the number of blocks above a volume v is proportional to v^-exponent"));
     if (r->shape == CEDUO_SPHERE && spreads && ceduo_is_valid_below(v, "rock")) /* a sphere has no proportions */
-        ceduo_reject(v, "rock", "", _("blocks say how large the rocks are; remove the size, or give it without a spread"));
+        ceduo_reject(v, "rock", "", _("'blocks' gives the sizes of rocks; remove the size here, or its spread"));
     if (ceduo_is_too_long(v, "blocks", n) || !ceduo_is_valid_below(v, "blocks"))
         return;
     bool good = true, single = blocks->kind == NODE_MAP;
@@ -164,7 +164,7 @@ void ceduo_validate_blocks(struct validator *v)
             k++;
         if (k < i)
             ceduo_reject(v, ceduo_asprintf(v, "blocks[%zu].volume_m3", i), "",
-                         _("the class overlaps one before it, from %s to %s m3; let them touch at most"),
+                         _("this class overlaps an earlier one, from %s to %s m3; classes may only touch"),
                          NUMERAL(b[k].volumes[0]), NUMERAL(b[k].volumes[1]));
     }
     if (v->sized_by_blocks && good && n > 0)
@@ -179,7 +179,7 @@ static void check_return(struct validator *v, size_t i, const struct ceduo_contr
     const char *path = ceduo_asprintf(v, "controls[%zu].accepted_return_y", i);
     bool given = ceduo_resolve_at(v->root, path), blocks = ceduo_node_get(v->root, "blocks");
     if (given && !blocks && ceduo_is_valid(v, "%s", path))
-        ceduo_reject(v, path, "", _("nothing says how often rocks come down; add 'blocks', or remove this"));
+        ceduo_reject(v, path, "", _("the frequency of rocks is not given; add 'blocks', or remove this"));
     else if (!given && blocks && !isnan(c->accepted))
         ceduo_assume(
             v, path,
@@ -199,7 +199,7 @@ void ceduo_validate_controls(struct validator *v)
     if (!ceduo_is_valid(v, "controls") || !ceduo_is_valid(v, "controls_m"))
         return;
     if (n == 0) {
-        ceduo_reject(v, "", "", _("'controls' is missing: name at least one place where passing rocks are counted"));
+        ceduo_reject(v, "", "", _("'controls' is missing; give at least one place at which passing rocks are counted"));
         return;
     }
     if (ceduo_is_too_long(v, path, n) || (!has_list && !(scene->controls = ceduo_alloc(v, n, sizeof *scene->controls))))
@@ -223,7 +223,7 @@ void ceduo_validate_controls(struct validator *v)
         if (!ceduo_check_on_slope(v, item, "", c->x_given))
             continue;
         if (c->x <= last)
-            ceduo_reject(v, item, "", _("%s does not lie beyond the release, %s m"), x, NUMERAL(last + v->origin));
+            ceduo_reject(v, item, "", _("%s must lie beyond the release (%s m)"), x, NUMERAL(last + v->origin));
         else if (k < i)
             ceduo_reject(v, item, "", _("'%s' is given twice"), x);
     }

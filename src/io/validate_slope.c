@@ -27,14 +27,14 @@ static bool read_vertices(struct validator *v, struct points *p)
     const struct ceduo_slope *s = &v->draft.scene.slope;
     bool csv = ceduo_is_given(v, "slope", "csv"), list = ceduo_is_given(v, "slope", "vertices_m");
     if (!csv && !list)
-        return ceduo_reject(v, "slope", "", _("'vertices_m' is missing: the profile"));
+        return ceduo_reject(v, "slope", "", _("'vertices_m' is missing; give the profile, or a table in 'csv'"));
     *p = (struct points){.x = s->x, .z = s->z, .n = s->vertices};
     if (list || !ceduo_is_valid(v, "slope.csv"))
         return list && ceduo_is_valid(v, "slope.vertices_m");
     const struct node *node = ceduo_node_get(ceduo_node_get(v->root, "slope"), "csv");
     const char *path = ceduo_resolve_path(v->arena, node, "slopes");
     if (!path)
-        ceduo_reject(v, "slope.csv", "", _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
+        ceduo_reject(v, "slope.csv", "", _("cannot find '%s' next to this file or among the profiles (ceduo --list-profiles)"),
                      node->text);
     bool good = read_table(v, path, p, v->problems);
     if (good && p->understood)
@@ -52,8 +52,8 @@ static bool check_vertices(struct validator *v, const struct points *p)
     for (size_t i = 1; i < p->n; i++)
         if (p->x[i] <= p->x[i - 1]) {
             ceduo_reject(v, ceduo_asprintf(v, "slope.vertices_m[%zu]", i), "",
-                         _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"),
-                         NUMERAL(p->x[i]), NUMERAL(p->x[i - 1]));
+                         _("x must rise, but %s follows %s; give a wall a small run, such as 0.01 m"), NUMERAL(p->x[i]),
+                         NUMERAL(p->x[i - 1]));
             rising = false;
         }
     if (!rising || (!csv && !ceduo_is_valid_below(v, "slope.vertices_m")))
@@ -61,12 +61,12 @@ static bool check_vertices(struct validator *v, const struct points *p)
     double first = p->z[0], last = p->z[p->n - 1];
     if (last > first && !reversed)
         ceduo_reject(v, path, "",
-                     _("the profile rises, from %s to %s m, and rocks go along x: if it was drawn upward, write "
-                       "'reversed: true' in slope, which mirrors it with its ground"),
+                     _("the profile rises from %s to %s m, but rocks move along x; if it was drawn uphill, mirror it with "
+                       "'reversed: true' in slope"),
                      NUMERAL(first), NUMERAL(last));
     else if (last < first && reversed)
-        ceduo_reject(v, "slope.reversed", "", _("the profile falls already, from %s to %s m; leave 'reversed' out"),
-                     NUMERAL(first), NUMERAL(last));
+        ceduo_reject(v, "slope.reversed", "", _("the profile already falls from %s to %s m; remove 'reversed'"), NUMERAL(first),
+                     NUMERAL(last));
     return reversed ? last >= first : last <= first;
 }
 
@@ -106,12 +106,13 @@ static void check_materials(struct validator *v, const struct points *p)
         double begin = i > 0 ? rows[i - 1].to : p->n > 0 ? p->x[0] : NAN;
         const char *path = ceduo_asprintf(v, "slope.materials[%zu]", i);
         if (ceduo_check_order(v, path, rows[i].from, rows[i].to) && (rows[i].from > begin || (i > 0 && rows[i].from < begin)))
-            ceduo_reject(v, path, "from_m", _("%s leaves a gap or overlaps; it must begin at %s"), NUMERAL(rows[i].from),
+            ceduo_reject(v, path, "from_m", _("%s leaves a gap or an overlap; begin at %s"), NUMERAL(rows[i].from),
                          NUMERAL(begin));
     }
     if (v->problems->met == before && p->n > 0 && rows[n - 1].to < p->x[p->n - 1])
-        ceduo_reject(v, ceduo_asprintf(v, "slope.materials[%zu]", n - 1), "to_m", _("%s ends before the profile, at %s"),
-                     NUMERAL(rows[n - 1].to), NUMERAL(p->x[p->n - 1]));
+        ceduo_reject(v, ceduo_asprintf(v, "slope.materials[%zu]", n - 1), "to_m",
+                     _("%s is before the end of the profile, %s; extend the last row"), NUMERAL(rows[n - 1].to),
+                     NUMERAL(p->x[p->n - 1]));
 }
 
 /* Add the assumption of mu, which no file gives. Only the law arm uses it. */
@@ -269,7 +270,7 @@ void ceduo_validate_slope(struct validator *v)
         return;
     size_t before = v->problems->met;
     if (!segments && !materials && !ceduo_is_given(v, "slope", "csv"))
-        ceduo_reject(v, "slope", "", _("'segments' or 'materials' is missing: the ground"));
+        ceduo_reject(v, "slope", "", _("'segments' or 'materials' is missing; give the ground"));
     const double smooth = ceduo_schema_default(ceduo_schema_field(ceduo_schema_segment(), "roughness_rad"));
     bool known = segments && ceduo_is_valid(v, "slope.segments");
     if (known && p.n > 1 && s->segments_given != 1 && s->segments_given != p.n - 1)
@@ -297,11 +298,11 @@ void ceduo_validate_slope(struct validator *v)
             s->segments[j] = make_segment(ceduo_material_talus(), &none);
     }
     if (s->segments && ceduo_slope_check(s) != CEDUO_OK)
-        ceduo_reject(v, "slope", "", _("two vertices lie too close together for their distance from the first"));
+        ceduo_reject(v, "slope", "", _("two vertices are too close together for their distance from the first; remove one"));
     bool given = ceduo_is_given(v, "slope", "tolerance_m");
     if (given && s->tolerance > 0 && s->segments_given > 1)
         ceduo_reject(v, TOLERANCE, "",
-                     _("each stretch between two points has a ground of its own here; remove 'tolerance_m', or give one ground "
+                     _("a profile with a ground for each segment is not simplified; remove 'tolerance_m', or give one ground "
                        "for all, or 'materials'"));
     if (!given && segments)
         s->tolerance = 0;

@@ -15,7 +15,7 @@ static void check_spreads(struct validator *v, const char *path, const char *lis
     for (size_t i = 0; i < n; i++)
         if (stems[i].dbh_sd > stems[i].dbh) /* false for unreadable values: NaN and 0 */
             ceduo_reject(v, ceduo_asprintf(v, "%s.%s[%zu]", path, list, i), "dbh_sd_m",
-                         _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
+                         _("the spread, %s m, exceeds the diameter, %s m; split these stems into two entries"),
                          NUMERAL(stems[i].dbh_sd), NUMERAL(stems[i].dbh));
 }
 
@@ -32,7 +32,7 @@ static void check_given(struct validator *v, const char *path, const struct fiel
     for (const struct field *f = object->fields; f < object->fields + object->n; f++)
         if (f->type == FIELD_NUMBER && is_missing(v, *(const double *)(const void *)((const char *)item + f->offset), path,
                                                   ceduo_asprintf(v, ".%s.%s", group->key, f->key)))
-            ceduo_reject(v, path, group->key, _("'%s' is missing: nothing is assumed here"), f->key);
+            ceduo_reject(v, path, group->key, _("'%s' is missing; it has no default"), f->key);
 }
 
 /* True if a mapping has a key. */
@@ -64,15 +64,15 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
     if (!ceduo_is_valid(v, "%s", path)) /* its base is unreadable */
         return;
     if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_valid(v, "%s.growth.shoots_young", path))
-        ceduo_reject(v, path, "growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
+        ceduo_reject(v, path, "growth.shoots_young", _("%s is below the number of old shoots, %s; shoots can only decrease"),
                      NUMERAL(s->growth.shoots_young), NUMERAL(s->growth.shoots_old));
     if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
-        ceduo_reject(v, path, "system", _("'bare', but there are stems; name the system or remove them"));
+        ceduo_reject(v, path, "system", _("'bare' has no stems; name the system, or remove the stems"));
     for (size_t i = 0; i < s->shoots_count; i++) { /* per_ha or per_stool is required */
         const char *here = ceduo_asprintf(v, "%s.shoots[%zu]", path, i);
         bool each = is_written(v, here, "per_stool");
         if (!each && is_missing(v, s->shoots[i].per_ha, here, ".per_ha") && ceduo_is_valid(v, "%s.per_stool", here))
-            ceduo_reject(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
+            ceduo_reject(v, here, "", _("'per_ha' or 'per_stool' is missing; give the number of shoots"));
         else if (each && !is_written(v, path, "stools.per_ha") && ceduo_is_valid(v, "%s.stools.per_ha", path))
             ceduo_reject(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
     }
@@ -82,7 +82,7 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
     if (!ceduo_is_valid(v, "%s.stools.per_ha", path) || !ceduo_is_valid(v, "%s.shoots", path))
         return;
     if (s->stools_per_ha > 0 && ceduo_stand_shoots(s) / s->stools_per_ha > SHOOTS_MAX)
-        ceduo_reject(v, path, "shoots", _("%s shoots on each stool are more than the %s that can be drawn"),
+        ceduo_reject(v, path, "shoots", _("%s shoots on each stool are too many; the limit is %s"),
                      NUMERAL(ceduo_stand_shoots(s) / s->stools_per_ha), NUMERAL(SHOOTS_MAX));
     if (ceduo_stand_has_shoots(s) && !(s->stools_per_ha > 0))
         ceduo_reject(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
@@ -91,7 +91,7 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
                      _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the "
                        "stools"));
     else if (ceduo_stand_has_shoots(s) && ceduo_stand_shoots(s) < s->stools_per_ha * (1 - 1e-12)) /* .4 and .6 per stool */
-        ceduo_reject(v, path, "stools.per_ha", _("%.6g shoots on %.6g stools: a stool has one shoot at least"),
+        ceduo_reject(v, path, "stools.per_ha", _("%.6g shoots are too few for %.6g stools; each stool needs one"),
                      ceduo_stand_shoots(s), s->stools_per_ha);
 }
 
@@ -127,8 +127,9 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
         const char *here = ceduo_asprintf(v, "%s[%zu]", path, i), *stand = ceduo_asprintf(v, "%s.stand", here);
         const double from = belt->from_given, to = belt->to_given, before = i > 0 ? belt[-1].to_given : -INFINITY;
         if (ceduo_check_stretch(v, here, from, to) && from < before)
-            ceduo_reject(v, here, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
-                         NUMERAL(from), NUMERAL(before));
+            ceduo_reject(v, here, "from_m",
+                         _("belts must not overlap, but this one begins at %s and the previous one ends at %s"), NUMERAL(from),
+                         NUMERAL(before));
         belt->from = belt->from_given - v->origin;
         belt->to = belt->to_given - v->origin;
         const struct node *node = ceduo_resolve_at(v->root, stand);

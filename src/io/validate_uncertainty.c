@@ -216,10 +216,10 @@ static bool make_input(struct validator *v, const struct row *row, struct places
     if (removed)
         return ceduo_reject(v, row->path, "path", "%s", _(removed));
     if (!field)
-        return ceduo_reject(v, row->path, "path",
-                            _("'%s' does not affect the result; name a number or a word of the rock, its release, the "
-                              "slope, a stand or the law"),
-                            d->path);
+        return ceduo_reject(
+            v, row->path, "path",
+            _("'%s' affects no result; name a number or a word of the rock, its release, the slope, a stand or the law"),
+            d->path);
     find_places(places, path);
     if (places->n == 0)
         return false;
@@ -371,7 +371,7 @@ static bool read_head(struct draws *t)
                 if (t->csv.source->foreign)
                     path[ceduo_utf8_cut(path, CEDUO_FOREIGN_MAX)] = '\0';
                 return ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "uncertainty.draws"),
-                                        _("the table has a column '%s', which is no value of this scene"), path);
+                                        _("the column '%s' is not a value of this scene; rename it"), path);
             }
             t->places = ceduo_arena_grow(v->arena, t->places, t->places_count, found.places_count, &t->places_capacity,
                                          sizeof *t->places);
@@ -434,7 +434,7 @@ static void add_draws(struct validator *v)
     const char *path = ceduo_resolve_path(v->arena, v->draws, "scenes");
     if (!path)
         ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "uncertainty.draws"),
-                         _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), v->draws->text);
+                         _("cannot find '%s' next to this file or among the profiles (ceduo --list-profiles)"), v->draws->text);
     if (!path || !read_table(&t, path))
         return;
     const char **places = ceduo_alloc(v, t.places_count, sizeof *places);
@@ -457,7 +457,7 @@ static void add_draws(struct validator *v)
     add_input(v, input, NULL);
     LOCAL_TEXT(line);
     ceduo_text_append_escaped(&line, ceduo_file_name(path));
-    ceduo_text_format(&line, _(": %zu draws of %zu values that belong together"), t.rows, t.columns);
+    ceduo_text_format(&line, _(": %zu joint draws of %zu values"), t.rows, t.columns);
     ceduo_add_table_note(v, "uncertainty.draws", ceduo_text_string(&line));
 }
 
@@ -531,15 +531,15 @@ static const char *describe_status(enum ceduo_status status)
 {
     switch (status) {
     case CEDUO_RELEASE_OFF_SLOPE:
-        return _("the release lies beyond the slope");
+        return _("the release lies outside the slope");
     case CEDUO_RELEASE_BELOW:
         return _("the release lies below the ground");
     case CEDUO_CONTROL_OFF_SLOPE:
-        return _("a control lies beyond the slope");
+        return _("a control lies outside the slope");
     case CEDUO_CONTROL_BEHIND:
-        return _("a control does not lie beyond the release");
+        return _("a control lies before the release");
     case CEDUO_BAD_BELT:
-        return _("a belt overlaps another, ends before it begins, or lies beyond the slope");
+        return _("a belt overlaps another, ends before it begins, or lies outside the slope");
     case CEDUO_BAD_ROCK:
         return _("the rock has no such size");
     default:
@@ -567,7 +567,7 @@ static void check_end(struct ends *e, size_t i, size_t k, size_t j, size_t m)
         ceduo_reject(v, v->rows[i], key, _("%s and %s of %s cannot be computed together: %s; make one of the ranges smaller"),
                      value_text(v, i, k), value_text(v, j, m), v->file->inputs[j].path, describe_status(status));
     else if (input->kind == CEDUO_INPUT_WORDS)
-        ceduo_reject(v, v->rows[i], key, _("%s cannot be computed: %s; leave it out"), value_text(v, i, k),
+        ceduo_reject(v, v->rows[i], key, _("%s cannot be computed: %s; remove it"), value_text(v, i, k),
                      describe_status(status));
     else
         ceduo_reject(v, v->rows[i], key, _("%s cannot be computed: %s; make the range smaller"), value_text(v, i, k),

@@ -113,14 +113,15 @@ bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key
     double end = v->has_profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
     return !v->has_profile || !(x < v->origin || x > end) ||
            /* untaken: complaint */
-           ceduo_reject(v, path, key, _("%s lies beyond the slope, which goes from %s to %s m"), NUMERAL(x), NUMERAL(v->origin),
-                        NUMERAL(end));
+           ceduo_reject(v, path, key, _("%s lies outside the slope, which goes from %s to %s m"), NUMERAL(x),
+                        NUMERAL(v->origin), NUMERAL(end));
 }
 
 bool ceduo_check_order(struct validator *v, const char *path, double from, double to)
 {
     /* untaken: complaint */
-    return !(to <= from) || ceduo_reject(v, path, "to_m", _("%s does not lie beyond from_m, %s"), NUMERAL(to), NUMERAL(from));
+    return !(to <= from) ||
+           ceduo_reject(v, path, "to_m", _("the end (%s) must lie beyond the start (%s)"), NUMERAL(to), NUMERAL(from));
 }
 
 bool ceduo_check_stretch(struct validator *v, const char *path, double from, double to)
@@ -140,7 +141,7 @@ static void check_rules(struct validator *v, const char *list, const struct cedu
         if (!ceduo_is_valid_below(v, path))
             continue;
         if (items[i].most < items[i].least)
-            ceduo_reject(v, path, "", _("what is asked for at most is less than what is asked for at least"));
+            ceduo_reject(v, path, "", _("the maximum is below the minimum; correct one"));
         for (size_t k = 0; k < items[i].species_count; k++)
             if (ceduo_species_find(items[i].species[k]) < 0)
                 ceduo_reject(v, ceduo_asprintf(v, "%s.species[%zu]", path, k), "", _("'%s' is unknown; one of: %s"),

@@ -319,7 +319,7 @@ static struct node *read_document(struct reader *r)
             break;
         yaml_event_type_t type = event.type;
         if (type == YAML_DOCUMENT_START_EVENT && root)
-            STOP(r, event.start_mark, _("a second document; keep one to a file"));
+            STOP(r, event.start_mark, _("a second document; a file must have only one"));
         else if (type != YAML_STREAM_START_EVENT && type != YAML_DOCUMENT_START_EVENT && type != YAML_DOCUMENT_END_EVENT &&
                  type != YAML_STREAM_END_EVENT)
             root = read_value(r, &event, 0);

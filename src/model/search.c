@@ -143,12 +143,11 @@ static enum ceduo_status ask_once(struct search *s, double value, struct reliabi
     return status;
 }
 
-/* A whole value stands for all that are nearest to it. */
 static enum ceduo_status above_at(void *context, double value, double *above)
 {
     struct search *s = context;
     struct reliability_result answer;
-    enum ceduo_status status = ask_once(s, s->whole ? round(value) : value, &answer);
+    enum ceduo_status status = ask_once(s, value, &answer);
     *above = status == CEDUO_OK ? answer.above : NAN;
     return status;
 }
@@ -181,7 +180,7 @@ static enum ceduo_status read_error(struct search *s, const struct ceduo_find_de
     return status;
 }
 
-/* Searches the value that reaches the goal in the wanted share of cases; few values do, because that is smooth. */
+/* Search the value that reaches the goal in the wanted share of cases. */
 static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_def *plain, const struct ceduo_found *found)
 {
     struct ceduo_find_def def = *plain;
@@ -197,16 +196,9 @@ static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_d
     if (status != CEDUO_OK || s->answer->sure.inputs == 0)
         return status;
     def.tolerance = SURE_TOLERANCE;
-    if (def.whole) {
-        def.lo = ceil(def.lo), def.hi = floor(def.hi);
-        def.whole = false;
-        def.tolerance = def.hi > def.lo ? .5 / (def.hi - def.lo) : 0;
-    }
     def.goal = above_at;
     def.target = 0;
     status = ceduo_find(&def, to);
-    if (s->whole)
-        to->value = round(to->value), to->nearest = round(to->nearest);
     value = to->found ? to->value : to->nearest;
     if (status == CEDUO_OK && !isnan(value))
         status = ask_once(s, value, &answer);
@@ -291,13 +283,16 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
         return CEDUO_BAD_SLOPE;
     bool counted = field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* as a forester does */
     bool whole = s->whole = counted || (field && strcmp(field->unit, "y") == 0);
-    s->passes = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target;
-    struct ceduo_find_def def = {
-        .lo = s->def.lo, .hi = s->def.hi, .whole = whole, .target = s->passes, .tolerance = 1e-4, .cancel = cancel};
-    def.goal = goal_at;
-    def.context = s;
-    double first = whole ? ceil(def.lo) : def.lo, last = whole ? floor(def.hi) : def.hi;
-    if (!can_be_ends(s, first, last))
+    struct ceduo_find_def def = {.lo = whole ? ceil(s->def.lo) : s->def.lo,
+                                 .hi = whole ? floor(s->def.hi) : s->def.hi,
+                                 .whole = whole,
+                                 .target = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target,
+                                 .goal = goal_at,
+                                 .context = s,
+                                 .tolerance = 1e-4,
+                                 .cancel = cancel};
+    s->passes = def.target;
+    if (!can_be_ends(s, def.lo, def.hi))
         return CEDUO_BAD_SLOPE;
     struct ceduo_found *found = &answer->found;
     enum ceduo_status status = ceduo_find(&def, found);
@@ -305,7 +300,7 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
     if (status == CEDUO_OK && s->def.sure > 0)
         status = search_sure(s, &def, found);
     if (status == CEDUO_OK) {
-        struct ceduo_yield lo = yield_at(s, first), hi = yield_at(s, last);
+        struct ceduo_yield lo = yield_at(s, def.lo), hi = yield_at(s, def.hi);
         answer->yield = yield_at(s, found->found ? found->value : found->nearest);
         answer->yield_depends = differ(lo.cut_per_year, hi.cut_per_year) || differ(lo.standing, hi.standing) ||
                                 differ(lo.died_per_year, hi.died_per_year);

@@ -18,8 +18,8 @@ struct path_step {
     bool bracket;
 };
 
-/* Read the step at *at, and advance *at. False at the end, or if the path is malformed; *at is unchanged then. */
-bool ceduo_path_next(const char *path, size_t length, size_t *at, struct path_step *step);
+/* Read the step at *pos, and advance *pos. False at the end, or if the path is malformed; *pos is unchanged then. */
+bool ceduo_path_next(const char *path, size_t length, size_t *pos, struct path_step *step);
 
 bool ceduo_path_is(const struct path_step *step, const char *word);
 

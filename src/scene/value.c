@@ -9,7 +9,7 @@
 struct finder {
     struct ceduo_scene *scene;
     const char *path;
-    size_t length, at;
+    size_t length, pos;
     const struct object *object;
     char *item;
     size_t n; /* number of adjacent items that share the value */
@@ -17,7 +17,7 @@ struct finder {
 
 static bool next(struct finder *f, struct path_step *step)
 {
-    return ceduo_path_next(f->path, f->length, &f->at, step);
+    return ceduo_path_next(f->path, f->length, &f->pos, step);
 }
 
 /* Read an index in brackets, below n. */
@@ -73,7 +73,7 @@ static bool enter_list(struct finder *f, const struct field *list)
         return false;
     memcpy(&items, f->item + list->offset, sizeof items);
     memcpy(&n, f->item + list->beside, sizeof n);
-    if (list->flags & FIELD_OR_ONE && f->path[f->at] == '.') { /* the only item, without an index */
+    if (list->flags & FIELD_OR_ONE && f->path[f->pos] == '.') { /* the only item, without an index */
         f->object = list->object;
         f->item = items;
         return n == 1;
@@ -88,46 +88,46 @@ static bool find_spread_part(struct finder *f, struct value *v)
 {
     struct path_step step;
     if (!next(f, &step))
-        return f->at == f->length;
+        return f->pos == f->length;
     v->part = ceduo_path_is(&step, "spread") ? VALUE_SPREAD : VALUE_WHOLE;
-    return !step.bracket && (v->part == VALUE_SPREAD || ceduo_path_is(&step, "mean")) && f->at == f->length;
+    return !step.bracket && (v->part == VALUE_SPREAD || ceduo_path_is(&step, "mean")) && f->pos == f->length;
 }
 
 static bool find_number(struct finder *f, const struct field *field, struct value *v)
 {
     const struct ceduo_slope *s = &f->scene->slope;
-    char *at = f->item + field->offset, *items;
+    char *member = f->item + field->offset, *items;
     size_t n, i;
-    *v = (struct value){.field = field, .at = at, .n = f->n, .stride = f->object->size};
+    *v = (struct value){.field = field, .at = member, .n = f->n, .stride = f->object->size};
     v->origin = field->flags & FIELD_PLACE ? f->scene->slope.origin_x : 0;
     switch (field->type) {
     case FIELD_NUMBER:
         if (f->object == ceduo_schema_segment() &&
             ceduo_schema_other(f->object, field->key)) /* not for stems: their per_ha is recomputed */
-            v->other =
+            v->alternative =
                 (double *)(void *)(f->item + ceduo_schema_field(f->object, ceduo_schema_other(f->object, field->key))->offset);
         v->relative = field->flags & FIELD_PLACE ? (double *)(void *)(f->item + field->beside) : NULL;
-        return f->at == f->length;
+        return f->pos == f->length;
     case FIELD_COUNT:
     case FIELD_CHOICE:
-        return f->at == f->length;
+        return f->pos == f->length;
     case FIELD_SPREAD:
         return find_spread_part(f, v);
     case FIELD_SPREADS:
-        v->at = next_index(f, 3, &i) ? at + i * sizeof(struct ceduo_number) : NULL;
+        v->at = next_index(f, 3, &i) ? member + i * sizeof(struct ceduo_number) : NULL;
         return v->at && find_spread_part(f, v);
     case FIELD_NUMBERS:
-        memcpy(&items, at, sizeof items);
+        memcpy(&items, member, sizeof items);
         memcpy(&n, f->item + field->beside, sizeof n);
         v->at = next_index(f, n, &i) ? items + i * sizeof(double) : NULL;
-        return v->at && f->at == f->length;
+        return v->at && f->pos == f->length;
     case FIELD_POINTS: /* materials may have added vertices; all x are relative to the first */
         if (s->segments_given == 0 || s->simplified_to > 0 || !next_index(f, s->vertices, &i) || !next_index(f, 2, &n) ||
             (n == 0 && i == 0))
             return false;
         v->at = n == 0 ? &s->x[i] : &s->z[i];
         v->origin = n == 0 ? s->origin_x : s->origin_z;
-        return f->at == f->length;
+        return f->pos == f->length;
     default:
         return false;
     }
@@ -198,17 +198,17 @@ bool ceduo_value_set(const struct value *v, double number)
             return false;
     }
     for (size_t i = 0; i < v->n; i++) {
-        char *at = (char *)v->at + i * v->stride;
+        char *copy = (char *)v->at + i * v->stride;
         if (f->type == FIELD_CHOICE) /* index of a word; -1: not given */
-            memcpy(at, &choice, sizeof choice);
+            memcpy(copy, &choice, sizeof choice);
         else if (is_spread(f))
-            memcpy(at, &changed, sizeof changed);
+            memcpy(copy, &changed, sizeof changed);
         else if (f->type == FIELD_COUNT)
-            ceduo_schema_set_count(f, at, (uint64_t)number);
+            ceduo_schema_set_count(f, copy, (uint64_t)number);
         else
-            memcpy(at, &stored, sizeof stored);
-        if (v->other)
-            *(double *)(void *)((char *)v->other + i * v->stride) = NAN;
+            memcpy(copy, &stored, sizeof stored);
+        if (v->alternative)
+            *(double *)(void *)((char *)v->alternative + i * v->stride) = NAN;
     }
     if (v->relative)
         *v->relative = si - v->origin;

@@ -16,7 +16,7 @@ struct value {
     size_t n, stride;          /* n copies, `stride` bytes apart, if a segment applies to the whole slope */
     double origin;             /* SI: subtracted to be relative to the slope's first vertex */
     double *relative;          /* the relative place; `at` holds the given one; NULL: `at` is relative */
-    double *other;             /* the value by its alternative key, set to NaN by ceduo_value_set(); NULL: none */
+    double *alternative;       /* the value by its alternative key, set to NaN by ceduo_value_set(); NULL: none */
 };
 
 /* Look up the number at a path of --set, such as forest[0].stand.trees[0].per_ha or rock.density_kg_m3.spread. A word of a

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fits values of scenes to what was seen. Three steps: Sobol' points over the bounds, on all threads; the simplex from the
- * best of them; chains from where that ends. A place is a row u of numbers in 0…1, one for each parameter; simplex and chains
- * walk in y = log(u/(1 - u)), so that no bound is ever crossed. Each worker has copies of the scenes of its own. At the end
- * draws of the chains are computed once more, to predict all that was seen (predict.c). */
+/* Fits values of scenes to observations, in two steps: Sobol' points over the bounds, on all threads; chains from the best of
+ * them. A place is a row u of numbers in 0…1, one for each parameter. Chains walk in y = log(u/(1 - u)), so that they cross no
+ * bound. Each worker has its own copies of the scenes. At the end draws of the chains are computed once more, to predict all
+ * observations (predict.c). */
 #include "ceduo/calibrate.h"
 
-#include <gsl/gsl_multimin.h>
-#include <gsl/gsl_qrng.h>
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
@@ -22,11 +20,7 @@
 #include "fitting.h"
 
 #define POINTS     256
-#define REFINED    3    /* simplex starts */
-#define FAR_OUT    9    /* |y| beyond which u is a bound, for the simplex */
-#define SIMPLEX    0.5  /* size of the first one, in y */
-#define SMALL      0.02 /* of the last */
-#define FIRST_STEP 0.3  /* of a chain */
+#define FIRST_STEP 0.3 /* of a chain */
 /* times the guess: its tails are to reach farther than those of the density, or chains get stuck there */
 #define FLATTER    0.7
 #define STEPS_MIN  250
@@ -118,73 +112,19 @@ static int look_at_point(void *context, size_t i, size_t worker)
     return (int)status;
 }
 
+/* Chains start from the best points, of equal ones from the first. */
 static enum ceduo_status search(struct fitting *f)
 {
-    size_t d = f->def->parameters_count;
-    gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)d);
-    if (!sequence) /* untaken: gsl */
-        return CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < POINTS; i++)
-        gsl_qrng_get(sequence, f->known + i * d);
-    gsl_qrng_free(sequence);
-    return (enum ceduo_status)ceduo_parallel(&(struct parallel){POINTS, f->def->threads, look_at_point, f});
-}
-
-/* ---- refining ---- */
-
-/* A simplex at work. */
-struct descent {
-    struct fitting *f;
-    size_t worker;
-    enum ceduo_status status;
-};
-
-static double depth(const gsl_vector *y, void *context)
-{
-    struct descent *d = context;
-    double u[PARAMETERS], log_likelihood = -INFINITY, out = 0;
-    for (size_t i = 0; i < y->size; i++) {
-        u[i] = unit(gsl_vector_get(y, i));
-        out = fmax(out, fabs(gsl_vector_get(y, i)) - FAR_OUT);
+    size_t d = f->def->parameters_count, best[CHAINS];
+    enum ceduo_status status = ceduo_surface_points(f->def->seed, POINTS, d, f->known);
+    if (status == CEDUO_OK)
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){POINTS, f->def->threads, look_at_point, f});
+    gsl_sort_largest_index(best, CHAINS, f->known_values, 1, POINTS);
+    for (size_t k = 0; k < CHAINS * d; k++) {
+        double u = f->known[best[k / d] * d + k % d];
+        f->starts[k] = log(u / (1 - u));
     }
-    if (d->status == CEDUO_OK && out <= 0)
-        d->status = evaluate(d->f, d->worker, u, &log_likelihood);
-    return isfinite(log_likelihood) ? -log_likelihood : 1e12 + out;
-}
-
-static int refine_one(void *context, size_t start, size_t worker)
-{
-    struct fitting *f = context;
-    size_t n = f->def->parameters_count;
-    struct descent d = {f, worker, CEDUO_OK};
-    gsl_multimin_function function = {depth, n, &d};
-    double *y = f->starts + start * n, steps[PARAMETERS];
-    for (size_t i = 0; i < n; i++)
-        steps[i] = SIMPLEX;
-    gsl_vector_view from = gsl_vector_view_array(y, n), step = gsl_vector_view_array(steps, n);
-    gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, n);
-    if (!m) /* untaken: gsl */
-        return CEDUO_NO_MEMORY;
-    gsl_multimin_fminimizer_set(m, &function, &from.vector, &step.vector);
-    for (size_t k = 0; k < 40 + 20 * n && d.status == CEDUO_OK; k++)
-        if (gsl_multimin_fminimizer_iterate(m) != 0 || gsl_multimin_fminimizer_size(m) < SMALL) /* untaken: gsl */
-            break;
-    for (size_t i = 0; i < n && d.status == CEDUO_OK; i++)
-        y[i] = fmax(-FAR_OUT, fmin(FAR_OUT, gsl_vector_get(m->x, i)));
-    gsl_multimin_fminimizer_free(m);
-    tell(f, CEDUO_REFINE, NAN, NAN);
-    return (int)d.status;
-}
-
-/* From the best points; of those that are as good the first ones. */
-static enum ceduo_status refine(struct fitting *f)
-{
-    size_t d = f->def->parameters_count, order[POINTS];
-    gsl_sort_largest_index(order, CHAINS, f->known_values, 1, POINTS);
-    for (size_t c = 0; c < CHAINS; c++)
-        for (size_t i = 0; i < d; i++)
-            f->starts[c * d + i] = log(f->known[order[c] * d + i] / (1 - f->known[order[c] * d + i]));
-    return (enum ceduo_status)ceduo_parallel(&(struct parallel){REFINED, f->def->threads, refine_one, f});
+    return status;
 }
 
 /* ---- chains ---- */
@@ -433,7 +373,6 @@ enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struc
     a->parameters_count = def->parameters_count;
     status = open_fitting(&f, def);
     status = status == CEDUO_OK ? search(&f) : status;
-    status = status == CEDUO_OK ? refine(&f) : status;
     status = status == CEDUO_OK ? run_chains(&f, &chains) : status;
     if (status == CEDUO_OK && !read_draws(&f, &chains, a))
         status = CEDUO_NO_MEMORY;

@@ -73,13 +73,6 @@ static bool reduce(const struct plan *plan, struct ceduo_uncertainty_def *def, s
     return def->points >= CEDUO_UNCERTAINTY_MIN;
 }
 
-static void read_nothing(void *context, const struct point *point, const struct control_means *at)
-{
-    (void)context;
-    (void)point;
-    (void)at;
-}
-
 /* Sets what a rock of each option meets at the points, in the mean. */
 static enum ceduo_status run_pilot(const struct ceduo_uncertainty_def *def, struct plan *plan)
 {
@@ -95,8 +88,7 @@ static enum ceduo_status run_pilot(const struct ceduo_uncertainty_def *def, stru
     enum ceduo_status status =
         u ? ceduo_surface_points(def->scene->simulation.seed, PILOT, def->inputs_count, u) : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
-        status = ceduo_points_run(
-            &(const struct points){.def = &pilot, .u = u, .today = true, .read = read_nothing, .effort = &effort}, 0, PILOT, 0);
+        status = ceduo_points_run(&(const struct points){.def = &pilot, .u = u, .today = true, .effort = &effort}, 0, PILOT, 0);
     plan->met = (double)effort / (PILOT * rocks);
     free(u);
     return status;

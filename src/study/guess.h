@@ -5,13 +5,14 @@
 #include <stdatomic.h>
 #include <stddef.h>
 
-#include "ceduo/status.h"
+#include "ceduo/calibrate.h"
 
-/* A cheap guess of a log-likelihood over the unit cube: a quadratic through all that is known, by weighted least squares; what
- * is far below the best counts little. */
+/* A cheap guess of a log-likelihood over the unit cube: a quadratic through all that is known, by weighted least
+ * squares; what is far below the best counts little. */
 struct guess {
     size_t dimensions, terms;
-    double *coefficients; /* NULL: nothing is known yet */
+    double center[CEDUO_CALIBRATION_MAX]; /* the best place */
+    double *coefficients;                 /* NULL: nothing is known yet */
 };
 
 struct guess ceduo_guess_begin(size_t dimensions);

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Näslund's curve: a line through d/sqrt(h - 1.3) begins the search, and least squares of the heights end it. */
+/* Näslund's curve by least squares of the heights, from a usual curve. */
 #include "ceduo/naslund.h"
 
-#include <gsl/gsl_fit.h>
+#include <gsl/gsl_blas.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
 
 #include "base/gsl_errors.h"
 
@@ -34,30 +32,13 @@ static int residuals(const gsl_vector *x, void *context, gsl_vector *f)
     return GSL_SUCCESS;
 }
 
-/* The line d/sqrt(h - 1.3) = a + b d. False where there is none. */
-static bool begin(const struct pairs *p, double *x)
-{
-    double *d = malloc(2 * p->n * sizeof *d), ignored[4];
-    if (!d)
-        return false;
-    for (size_t i = 0; i < p->n; i++) {
-        d[i] = p->dbh[i] * 100;
-        d[p->n + i] = d[i] / sqrt(p->height[i] - CEDUO_BREAST_HEIGHT);
-    }
-    gsl_fit_linear(d, 1, d + p->n, 1, p->n, &x[0], &x[1], &ignored[0], &ignored[1], &ignored[2], &ignored[3]);
-    free(d);
-    return true;
-}
-
 enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *height, struct ceduo_naslund *curve)
 {
     GSL_RETURNS_ERRORS;
     struct pairs pairs = {n, dbh, height};
-    double x[2];
+    double x[2] = {.5, .15};
     if (n < CEDUO_NASLUND_MIN || !(gsl_stats_max(dbh, 1, n) > gsl_stats_min(dbh, 1, n)))
         return CEDUO_NO_FIT;
-    if (!begin(&pairs, x))
-        return CEDUO_NO_MEMORY;
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, n, 2);
     if (!w)
@@ -67,14 +48,11 @@ enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *h
     int why;
     gsl_multifit_nlinear_init(&start.vector, &fdf, w);
     gsl_multifit_nlinear_driver(STEPS_MAX, EXACT, EXACT, 0, NULL, NULL, &why, w);
-    curve->a = gsl_vector_get(gsl_multifit_nlinear_position(w), 0);
-    curve->b = gsl_vector_get(gsl_multifit_nlinear_position(w), 1);
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) {
-        double left = ceduo_naslund_height(curve, dbh[i]) - height[i];
-        sum += left * left;
-    }
-    curve->rmse = sqrt(sum / (double)n);
+    const gsl_vector *found = gsl_multifit_nlinear_position(w);
+    double sign = gsl_vector_get(found, 1) < 0 ? -1 : 1; /* -a and -b are the same curve */
+    curve->a = sign * gsl_vector_get(found, 0);
+    curve->b = sign * gsl_vector_get(found, 1);
+    curve->rmse = gsl_blas_dnrm2(gsl_multifit_nlinear_residual(w)) / sqrt((double)n);
     gsl_multifit_nlinear_free(w);
     return curve->a >= 0 && curve->b > 0 && isfinite(curve->rmse) ? CEDUO_OK : CEDUO_NO_FIT;
 }

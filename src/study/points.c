@@ -65,7 +65,8 @@ static struct control_means *brought_by(const struct item *item, size_t i)
 static void tell_variant(const struct item *item, size_t i, bool simulated)
 {
     const struct points *p = item->work->points;
-    p->read(p->context, &item->point, simulated ? brought_by(item, i) : NULL);
+    if (p->read)
+        p->read(p->context, &item->point, simulated ? brought_by(item, i) : NULL);
     if (i % item->each + 1 == item->each && p->done)
         p->done(p->context);
 }
@@ -181,6 +182,13 @@ size_t ceduo_points_years(const struct ceduo_uncertainty_def *def)
 {
     size_t count = ceduo_points_window(def), max = def->years_max > 0 ? def->years_max : CEDUO_UNCERTAINTY_YEARS_MAX;
     return count < max ? count : max;
+}
+
+void ceduo_insert_index(const double *values, size_t index, size_t n, size_t *order)
+{
+    for (; n > 0 && values[order[n - 1]] > values[index]; n--)
+        order[n] = order[n - 1];
+    order[n] = index;
 }
 
 double ceduo_groups_mean(const struct ceduo_replicates *y, uint64_t rocks)

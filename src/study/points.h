@@ -29,8 +29,8 @@ struct points {
     const struct ceduo_uncertainty_def *def;
     const double *u; /* rows of inputs */
     bool today;      /* slot 0 is asked for */
-    /* Called by several threads at once, each with points of its own rows: at each control, NULL where no rocks are
-     * simulated. */
+    /* Called by several threads at once, each with points of its own rows. `at`: one for each control, NULL if no rocks are
+     * simulated. May be NULL. */
     void (*read)(void *context, const struct point *point, const struct control_means *at);
     void (*done)(void *context); /* a row is done; may be NULL; by several threads at once */
     void *context;
@@ -52,6 +52,9 @@ static inline uint64_t ceduo_points_met(uint64_t contacts, struct ceduo_stem_cou
 /* Number of years that are simulated at each point, at most def->years_max; and of the whole window. */
 size_t ceduo_points_years(const struct ceduo_uncertainty_def *def);
 size_t ceduo_points_window(const struct ceduo_uncertainty_def *def);
+
+/* Insert an index into an order of n others, after those whose values are no larger. */
+void ceduo_insert_index(const double *values, size_t index, size_t n, size_t *order);
 
 /* Of groups that may differ by a rock. */
 double ceduo_groups_mean(const struct ceduo_replicates *groups, uint64_t rocks);

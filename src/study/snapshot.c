@@ -261,11 +261,10 @@ const struct ceduo_run_snapshot *ceduo_snapshot_find(const struct ceduo_snapshot
         return o ? o->bare : NULL;
     if (option >= scene->options_count)
         return NULL;
-    uint64_t key = ceduo_option_key(scene, &scene->options[option]);
-    for (size_t i = 0; i < o->options; i++)
-        if (o->wooded[i] && o->wooded[i]->key == key)
-            return o->wooded[i];
-    struct ceduo_run_snapshot *last = option < o->options ? o->wooded[option] : NULL;
+    const struct ceduo_run_snapshot *found = find_sight(o, ceduo_option_key(scene, &scene->options[option]));
+    if (found)
+        return found;
+    const struct ceduo_run_snapshot *last = option < o->options ? o->wooded[option] : NULL;
     for (size_t i = 0; last && i < scene->options_count; i++)
         if (ceduo_option_key(scene, &scene->options[i]) == last->key)
             return NULL; /* it is another's */

@@ -28,6 +28,7 @@
 #include "ceduo/statistics.h"
 #include "ceduo/uncertainty.h"
 #include "check_study.h"
+#include "points.h"
 
 #define GROUPS      CEDUO_SURFACE_GROUPS
 #define COORDINATES 40  /* of GSL's Sobol' points */
@@ -35,7 +36,7 @@
 #define SAMPLES     64  /* of the bootstrap */
 #define CLASSES     8   /* values of an input that is taken as known */
 #define TABLE_MAX   12  /* functions of an input that is a table */
-#define RIDGES      56  /* that are tried */
+#define RIDGES      57  /* that are tried */
 #define SAME        1e-8
 #define SHIFT       UINT64_MAX /* the row of the shifts of Sobol' points */
 #define ENOUGH      CEDUO_UNCERTAINTY_EXPLAINED
@@ -92,7 +93,8 @@ struct solution {
     struct arena memory;
     struct chosen chosen;
     struct terms terms;
-    double *x, *means; /* x: a row for each point */
+    gsl_matrix_view x; /* a row for each point */
+    double *means;
     gsl_multifit_linear_workspace *work;
     double lambda, freedom;
     double *coefficient, *mean; /* of each group's terms, then of their mean */
@@ -100,7 +102,6 @@ struct solution {
     double *leverage;           /* of each point */
     double *change;             /* of the coefficients of the mean in a sample of the bootstrap */
     double *spread;             /* the variance of each coefficient where the values have variance 1 */
-    double *room;               /* as many as there are terms */
     double spare, kept;         /* the variance that the terms leave without noise; how much of the mean's remains is that */
 };
 
@@ -134,6 +135,7 @@ struct ceduo_surface {
     struct solution solutions[2]; /* the last ones, without and with products */
     struct column c;              /* the figure at hand */
     struct parts found, other;    /* of it, and of a part of the rocks or of other points */
+    double *squares;              /* sums of squared differences of their shares, by the rocks and by the points */
     size_t *used;                 /* room for the inputs that are chosen, */
     double *room, *values;        /* for values of functions, and for one at each point */
 };
@@ -149,28 +151,21 @@ static double column_at(const struct ceduo_input *input, size_t column, size_t l
     return column < places ? x : x * x;
 }
 
-/* Makes a column orthonormal to the constant and to the `done` columns before it; false where nothing of it is left. */
+/* Make a column orthonormal to the constant and to the `done` columns before it. False if nothing of it is left. */
 static bool make_orthonormal(double *table, size_t levels, size_t done)
 {
-    double before = 0, after = 0, mean = 0, n = (double)levels;
-    for (size_t l = 0; l < levels; l++)
-        mean += table[l * TABLE_MAX + done] / n;
-    for (size_t l = 0; l < levels; l++) {
-        table[l * TABLE_MAX + done] -= mean;
-        before += table[l * TABLE_MAX + done] * table[l * TABLE_MAX + done] / n;
-    }
+    gsl_matrix_view all = gsl_matrix_view_array(table, levels, TABLE_MAX);
+    gsl_vector_view column = gsl_matrix_column(&all.matrix, done);
+    gsl_vector_add_constant(&column.vector, -gsl_stats_mean(table + done, TABLE_MAX, levels));
+    double before = gsl_blas_dnrm2(&column.vector), along, n = (double)levels;
     for (size_t k = 0; k < done; k++) {
-        double along = 0;
-        for (size_t l = 0; l < levels; l++)
-            along += table[l * TABLE_MAX + k] * table[l * TABLE_MAX + done] / n;
-        for (size_t l = 0; l < levels; l++)
-            table[l * TABLE_MAX + done] -= along * table[l * TABLE_MAX + k];
+        gsl_vector_view other = gsl_matrix_column(&all.matrix, k);
+        gsl_blas_ddot(&other.vector, &column.vector, &along);
+        gsl_blas_daxpy(-along / n, &other.vector, &column.vector);
     }
-    for (size_t l = 0; l < levels; l++)
-        after += table[l * TABLE_MAX + done] * table[l * TABLE_MAX + done] / n;
-    for (size_t l = 0; l < levels; l++)
-        table[l * TABLE_MAX + done] /= sqrt(after);
-    return after > SAME * before;
+    double after = gsl_blas_dnrm2(&column.vector);
+    gsl_vector_scale(&column.vector, sqrt(n) / after);
+    return after * after > SAME * before * before;
 }
 
 /* The functions of an input at quantile u. */
@@ -249,6 +244,7 @@ enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n,
     s->values = ceduo_arena_alloc(&s->memory, points * sizeof *s->values);
     take_parts(s, &s->found);
     take_parts(s, &s->other);
+    s->squares = ceduo_arena_alloc(&s->memory, 2 * s->found.n * sizeof *s->squares);
     for (size_t b = 0; !s->memory.failed && b < SAMPLES; b++)
         for (size_t p = 0; p < points; p++)
             s->multipliers[b * points + p] = gsl_cdf_ugaussian_Pinv(random_open(b, p, 0, RANDOM_SAMPLE));
@@ -339,18 +335,10 @@ static double term_at(const struct ceduo_surface *s, const double *at, const str
 
 /* ---- one fit ---- */
 
-/* The share of a singular value that the ridge leaves. */
-static double filter(const struct solution *f, size_t k)
-{
-    double sigma = gsl_vector_get(f->work->S, k);
-    return sigma > 0 ? sigma * sigma / (sigma * sigma + f->lambda * f->lambda) : 0;
-}
-
 static int decompose(void *solution)
 {
-    const struct solution *f = solution;
-    gsl_matrix_view x = gsl_matrix_view_array(f->x, f->s->points, f->terms.n);
-    return gsl_multifit_linear_svd(&x.matrix, f->work);
+    struct solution *f = solution;
+    return gsl_multifit_linear_svd(&f->x.matrix, f->work);
 }
 
 /* Lists the terms, for which there are points enough, and decomposes their values; what was made last is taken again where it is of
@@ -369,22 +357,22 @@ static struct solution *solution_of(struct ceduo_surface *s, const struct chosen
     if (f->memory.failed)
         return NULL;
     size_t n = list_terms(s, chosen, &f->terms);
-    f->x = ceduo_arena_alloc(&f->memory, points * n * sizeof *f->x);
+    double *x = ceduo_arena_alloc(&f->memory, points * n * sizeof *x);
     f->means = ceduo_arena_alloc(&f->memory, n * sizeof *f->means);
     f->coefficient = ceduo_arena_alloc(&f->memory, (GROUPS + 1) * n * sizeof *f->coefficient);
     f->change = ceduo_arena_alloc(&f->memory, n * sizeof *f->change);
     f->spread = ceduo_arena_alloc(&f->memory, n * sizeof *f->spread);
-    f->room = ceduo_arena_alloc(&f->memory, n * sizeof *f->room);
     f->remains = ceduo_arena_alloc(&f->memory, (GROUPS + 1) * points * sizeof *f->remains);
     f->leverage = ceduo_arena_alloc(&f->memory, points * sizeof *f->leverage);
     f->work = gsl_multifit_linear_alloc(points, n);
+    if (!f->memory.failed)
+        f->x = gsl_matrix_view_array(x, points, n);
     for (size_t j = 0; j < n && !f->memory.failed; j++) {
-        for (size_t p = 0; p < points; p++) {
-            f->x[p * n + j] = term_at(s, s->at, &f->terms.items[j], p);
-            f->means[j] += f->x[p * n + j] / (double)points;
-        }
         for (size_t p = 0; p < points; p++)
-            f->x[p * n + j] -= f->means[j];
+            x[p * n + j] = term_at(s, s->at, &f->terms.items[j], p);
+        gsl_vector_view column = gsl_matrix_column(&f->x.matrix, j);
+        f->means[j] = gsl_stats_mean(x + j, n, points);
+        gsl_vector_add_constant(&column.vector, -f->means[j]);
     }
     if (!f->work || f->memory.failed || ceduo_gsl_try(decompose, f) != 0)
         return NULL;
@@ -394,34 +382,28 @@ static struct solution *solution_of(struct ceduo_surface *s, const struct chosen
     return f;
 }
 
-/* Coefficients of values y at the points: V filter(S)/S U' y. */
+/* Set the coefficients of values y at the points. */
 static void solve(const struct solution *f, const double *y, double *coefficient)
 {
-    size_t n = f->terms.n;
+    double ignored[2];
     gsl_vector_const_view values = gsl_vector_const_view_array(y, f->s->points);
-    gsl_vector_view along = gsl_vector_view_array(f->room, n), to = gsl_vector_view_array(coefficient, n);
-    gsl_blas_dgemv(CblasTrans, 1, f->work->A, &values.vector, 0, &along.vector);
-    for (size_t k = 0; k < n; k++)
-        f->room[k] *= filter(f, k) > 0 ? filter(f, k) / gsl_vector_get(f->work->S, k) : 0;
-    gsl_blas_dgemv(CblasNoTrans, 1, f->work->Q, &along.vector, 0, &to.vector);
+    gsl_vector_view to = gsl_vector_view_array(coefficient, f->terms.n);
+    gsl_multifit_linear_solve(f->lambda, &f->x.matrix, &values.vector, &to.vector, &ignored[0], &ignored[1], f->work);
 }
 
-/* Takes the ridge of the least score. GSL's own search ends at the smallest singular value, which of orthonormal functions is a
- * strong ridge already. */
-static void choose_ridge(struct solution *f, const double *y)
+/* Set the ridge of the least score. GSL's own ridges end at the smallest singular value, which is a strong ridge if functions are
+ * orthonormal. `room`: n. */
+static void choose_ridge(struct solution *f, const double *y, double *room)
 {
-    double tried[RIDGES], delta, best = INFINITY, max = gsl_vector_get(f->work->S, 0);
-    gsl_vector_view ridges = gsl_vector_view_array(tried, RIDGES), along = gsl_vector_view_array(f->room, f->terms.n);
+    double tried[RIDGES], scores[RIDGES], delta, max = gsl_vector_get(f->work->S, 0);
+    gsl_vector_view ridges = gsl_vector_view_array(tried, RIDGES), along = gsl_vector_view_array(room, f->terms.n);
+    gsl_vector_view score = gsl_vector_view_array(scores, RIDGES);
     gsl_vector_const_view values = gsl_vector_const_view_array(y, f->s->points);
     gsl_multifit_linear_gcv_init(&values.vector, &ridges.vector, &along.vector, &delta, f->work);
-    for (int i = 0; i <= RIDGES; i++) {
-        double lambda = max * pow(10, -7. * i / RIDGES);
-        double score = gsl_multifit_linear_gcv_calc(lambda, &along.vector, delta, f->work);
-        if (score < best) {
-            best = score;
-            f->lambda = lambda;
-        }
-    }
+    for (int i = 0; i < RIDGES; i++)
+        tried[i] = max * pow(10, -7. * i / (RIDGES - 1));
+    gsl_multifit_linear_gcv_curve(&ridges.vector, &along.vector, delta, &score.vector, f->work);
+    f->lambda = tried[gsl_vector_min_index(&score.vector)];
 }
 
 /* The mean of the products of two different groups' values, `stride` apart; `without`: but for those of one (GROUPS: of all). */
@@ -437,13 +419,20 @@ static double common_of(const double *values, size_t stride, size_t without)
     return (sum * sum - squares) / (n * (n - 1));
 }
 
-/* The variance that the terms leave, from all groups, or but for one. */
+/* The variance that the terms leave, from all groups or without one. */
 static double spare_of(const struct solution *f, size_t without)
 {
     double spare = 0;
     for (size_t p = 0; p < f->s->points; p++)
         spare += common_of(f->remains + p, f->s->points, without) / f->freedom;
     return fmax(0, spare);
+}
+
+/* The factor that leaves of n values, whose mean is 0, so much of their squares. */
+static double kept_of(double squares, const double *values, size_t n)
+{
+    double all = gsl_stats_tss_m(values, 1, n, 0);
+    return all > 0 ? sqrt(fmin(1, fmax(0, squares) / all)) : 0; /* untaken: rounding */
 }
 
 /* Fits the figure at hand by terms. NULL without memory. */
@@ -455,71 +444,59 @@ static struct solution *fit_terms(struct ceduo_surface *s, const struct chosen *
     size_t points = s->points, n = f->terms.n;
     const double *y = s->c.y;
     f->freedom = (double)points - 1;
-    f->lambda = 0;
     memset(f->spread, 0, n * sizeof *f->spread);
+    choose_ridge(f, y + GROUPS * points, f->change);
     memset(f->change, 0, n * sizeof *f->change);
-    choose_ridge(f, y + GROUPS * points);
-    const gsl_matrix *left = f->work->A, *right = f->work->Q;
-    for (size_t k = 0; k < n; k++)
-        f->freedom -= filter(f, k) * (2 - filter(f, k));
-    for (size_t j = 0; j < n; j++)
-        for (size_t k = 0; k < n && filter(f, k) > 0; k++) { /* the smallest singular values are the last */
-            double x = gsl_matrix_get(right, j, k) * filter(f, k) / gsl_vector_get(f->work->S, k);
-            f->spread[j] += x * x;
-        }
-    for (size_t p = 0; p < points; p++) {
-        f->leverage[p] = 1 / (double)points;
-        for (size_t k = 0; k < n; k++)
-            f->leverage[p] += gsl_matrix_get(left, p, k) * gsl_matrix_get(left, p, k) * filter(f, k);
-        f->leverage[p] = fmin(f->leverage[p], .99);
-    }
-    for (size_t g = 0; g <= GROUPS; g++) {
-        double *coefficient = f->coefficient + g * n, *remains = f->remains + g * points;
-        solve(f, y + g * points, coefficient);
-        for (size_t p = 0; p < points; p++) {
-            remains[p] = y[g * points + p];
-            for (size_t j = 0; j < n; j++)
-                remains[p] -= f->x[p * n + j] * coefficient[j];
-        }
-    }
-    double squares = 0;
     for (size_t p = 0; p < points; p++)
-        squares += f->left[p] * f->left[p] / f->freedom;
+        f->leverage[p] = 1 / (double)points;
+    for (size_t k = 0; k < n && gsl_vector_get(f->work->S, k) > 0; k++) { /* the largest are the first */
+        double sigma = gsl_vector_get(f->work->S, k), ridge = sigma * sigma + f->lambda * f->lambda;
+        double keep = sigma * sigma / ridge; /* share of a singular value that the ridge leaves */
+        f->freedom -= keep * (2 - keep);
+        for (size_t j = 0; j < n; j++)
+            f->spread[j] += pow(gsl_matrix_get(f->work->Q, j, k) * sigma / ridge, 2);
+        for (size_t p = 0; p < points; p++)
+            f->leverage[p] += pow(gsl_matrix_get(f->work->A, p, k), 2) * keep;
+    }
+    for (size_t p = 0; p < points; p++)
+        f->leverage[p] = fmin(f->leverage[p], .99);
+    for (size_t g = 0; g <= GROUPS; g++) {
+        gsl_vector_const_view values = gsl_vector_const_view_array(y + g * points, points);
+        gsl_vector_view coefficient = gsl_vector_view_array(f->coefficient + g * n, n);
+        gsl_vector_view remains = gsl_vector_view_array(f->remains + g * points, points);
+        solve(f, y + g * points, coefficient.vector.data);
+        gsl_multifit_linear_residuals(&f->x.matrix, &values.vector, &coefficient.vector, &remains.vector);
+    }
     f->spare = spare_of(f, GROUPS);
-    f->kept = squares > 0 ? sqrt(fmin(1, f->spare / squares)) : 0; /* untaken: rounding */
+    f->kept = kept_of(f->spare * f->freedom, f->left, points);
     return f;
 }
 
 /* ---- values ---- */
 
-/* Makes a figure the one at hand: `groups` of each point, of n figures their sum. */
+/* Make a figure the one at hand: `groups` of each point, of n figures their sum. */
 static void fill_column(struct column *c, const struct ceduo_replicates *groups, size_t n)
 {
-    double points = (double)c->points, squares = 0, common = 0, *mean = c->y + GROUPS * c->points;
+    double common = 0, *mean = c->y + GROUPS * c->points;
     memset(c->y, 0, (GROUPS + 1) * c->points * sizeof *c->y);
     c->means[GROUPS] = 0;
     for (size_t g = 0; g < GROUPS; g++) {
         double *y = c->y + g * c->points;
-        c->means[g] = 0;
-        for (size_t p = 0; p < c->points; p++) {
-            for (size_t i = 0; i < n; i++)
-                y[p] += groups[i * c->points + p].of[g];
-            c->means[g] += y[p] / points;
-        }
-        c->means[GROUPS] += c->means[g] / GROUPS;
+        for (size_t i = 0; i < n * c->points; i++)
+            y[i % c->points] += groups[i].of[g];
+        c->means[g] = gsl_stats_mean(y, 1, c->points);
+        c->means[GROUPS] += c->means[g] / GROUPS; /* exactly 0 if groups cancel out */
         for (size_t p = 0; p < c->points; p++) {
             y[p] -= c->means[g];
             mean[p] += y[p] / GROUPS;
         }
     }
-    for (size_t p = 0; p < c->points; p++) {
-        squares += pow(mean[p], 2);
+    for (size_t p = 0; p < c->points; p++)
         common += common_of(c->y + p, c->points, GROUPS);
-    }
-    c->variance = fmax(0, common) / (points - 1);
-    c->noise = fmax(0, squares - common) / (points - 1);
+    c->variance = fmax(0, common) / ((double)c->points - 1);
+    c->noise = fmax(0, gsl_stats_variance_m(mean, 1, c->points, 0) - common / ((double)c->points - 1));
     c->remains = c->y;
-    c->kept = squares > 0 ? sqrt(fmin(1, fmax(0, common) / squares)) : 0;
+    c->kept = kept_of(common, mean, c->points);
 }
 
 static void bound(const struct column *c, double *values)
@@ -572,16 +549,15 @@ static double student(void)
     return pow(gsl_cdf_tdist_Pinv(.975, GROUPS - 1) / CEDUO_Z95, 2);
 }
 
-/* What is read of the values, with its errors: by samples of the points, and by halves of the rocks against each other, as what
- * is read of sorted values turns at single ones (balanced half samples, McCarthy 1969). */
+/* What is read of the values; of samples of the points, and of halves of the rocks less the other halves, from which its errors
+ * are read, as what is read of sorted values turns at single ones (balanced half samples, McCarthy 1969). */
 struct band {
-    double ends[ENDS], sum[ENDS], squares[ENDS], of_rocks[ENDS];
+    double ends[ENDS], samples[SAMPLES][ENDS], halves[GROUPS - 1][ENDS];
 };
 
-static struct band read_band(const struct ceduo_surface *s)
+static void read_band(const struct ceduo_surface *s, struct band *band)
 {
     const struct column *c = &s->c;
-    struct band band = {0};
     double *values = s->room, *changes = values + c->points, *changed = changes + c->points, ends[2][ENDS];
     read_values(c, values);
     for (size_t half = 1; half < GROUPS; half++) {
@@ -592,30 +568,16 @@ static struct band read_band(const struct ceduo_surface *s)
             bound(c, changed);
             read_ends(changed, c->points, c->figure->limit, ends[other]);
         }
-        for (size_t i = 0; i < ENDS; i++) {
-            double between = ends[0][i] - ends[1][i];
-            band.of_rocks[i] += between * between / 4 / (GROUPS - 1);
-        }
+        for (size_t i = 0; i < ENDS; i++)
+            band->halves[half - 1][i] = ends[0][i] - ends[1][i];
     }
-    read_ends(values, c->points, c->figure->limit, band.ends);
-    return band;
-}
-
-static void add_sample(struct band *band, const struct column *c, double *values)
-{
-    double ends[ENDS];
-    read_ends(values, c->points, c->figure->limit, ends);
-    for (size_t i = 0; i < ENDS; i++) {
-        double change = ends[i] - band->ends[i];
-        band->sum[i] += change;
-        band->squares[i] += change * change;
-    }
+    read_ends(values, c->points, c->figure->limit, band->ends);
 }
 
 static double band_se(const struct band *b, enum end i)
 {
-    double mean = b->sum[i] / SAMPLES, of_points = fmax(0, b->squares[i] / SAMPLES - mean * mean) * SAMPLES / (SAMPLES - 1);
-    return sqrt(of_points + b->of_rocks[i] * student());
+    double of_rocks = gsl_stats_tss_m(&b->halves[0][i], ENDS, GROUPS - 1, 0) / 4 / (GROUPS - 1);
+    return sqrt(gsl_stats_variance(&b->samples[0][i], ENDS, SAMPLES) + of_rocks * student());
 }
 
 /* ---- shares ---- */
@@ -627,63 +589,56 @@ static double share_of(const struct parts *p, double noise, size_t i)
     return p->of[i] / (whole + (whole < noise ? noise : 0)); /* of what is less than the noise it is close to 0 */
 }
 
-static void add_part(const struct solution *f, size_t j, double variance, struct parts *parts)
+/* The parts without one group (GROUPS: of all), of which the terms leave `spare`; with coefficients that change. */
+static void fill_parts(const struct solution *f, size_t without, double spare, const double *change, struct parts *parts)
 {
-    const struct term *term = &f->terms.items[j];
-    parts->all += variance;
-    for (size_t k = 0; k < term->n; k++) {
-        size_t input = f->s->input[term->f[k]];
-        parts->of[f->s->inputs_count + input] += variance;
-        if (term->n == 1)
-            parts->of[input] += variance;
-    }
-}
-
-static void clear_parts(struct parts *parts)
-{
+    const struct ceduo_surface *s = f->s;
     memset(parts->of, 0, parts->n * sizeof *parts->of);
     parts->all = 0;
-}
-
-static void fill_parts(const struct solution *f, size_t without, struct parts *parts)
-{
-    clear_parts(parts);
-    *parts->spare = without == GROUPS ? f->spare : spare_of(f, without);
-    for (size_t j = 0; j < f->terms.n; j++)
-        add_part(f, j, common_of(f->coefficient + j, f->terms.n, without) - *parts->spare * f->spread[j], parts);
+    *parts->spare = spare;
+    for (size_t j = 0; j < f->terms.n; j++) {
+        const struct term *term = &f->terms.items[j];
+        double variance = common_of(f->coefficient + j, f->terms.n, without) - spare * f->spread[j];
+        if (change)
+            variance += change[j] * (2 * f->mean[j] + change[j]) - f->spare * f->spread[j];
+        parts->all += variance;
+        for (size_t k = 0; k < term->n; k++) {
+            size_t input = s->input[term->f[k]];
+            parts->of[s->inputs_count + input] += variance;
+            parts->of[input] += term->n == 1 ? variance : 0;
+        }
+    }
 }
 
 /* With what the terms leave at each point, without noise, drawn anew: the coefficients change by f->change. */
 static void draw_parts(const struct solution *f, size_t sample, struct parts *parts)
 {
     const struct ceduo_surface *s = f->s;
-    const double *multiplier = s->multipliers + sample * s->points, *change = f->change;
-    double *drawn = s->values;
-    clear_parts(parts);
+    const double *multiplier = s->multipliers + sample * s->points;
+    double spare = 0;
     for (size_t p = 0; p < s->points; p++) {
-        drawn[p] = f->kept * f->left[p] / sqrt(1 - f->leverage[p]) * multiplier[p];
-        *parts->spare += f->kept * f->kept * f->left[p] * f->left[p] * multiplier[p] * multiplier[p] / f->freedom;
+        double drawn = f->kept * f->left[p] * multiplier[p];
+        s->values[p] = drawn / sqrt(1 - f->leverage[p]);
+        spare += drawn * drawn / f->freedom;
     }
-    solve(f, drawn, f->change);
-    for (size_t j = 0; j < f->terms.n; j++) {
-        double more = change[j] * (2 * f->mean[j] + change[j]) - f->spare * f->spread[j];
-        add_part(f, j, common_of(f->coefficient + j, f->terms.n, GROUPS) - f->spare * f->spread[j] + more, parts);
-    }
+    solve(f, s->values, f->change);
+    fill_parts(f, GROUPS, f->spare, f->change, parts);
+    *parts->spare = spare;
 }
 
-/* To s->values those of the surface at points shifted at random, with its coefficients changed and the remainder of any point. */
-static void draw_values(const struct solution *f, size_t sample)
+/* Set s->values to those of the surface at points shifted at random, with its coefficients changed and the remainder of any point;
+ * without a surface to `values` of points drawn anew. */
+static void draw_values(const struct ceduo_surface *s, const struct solution *f, size_t sample, const double *values)
 {
-    const struct ceduo_surface *s = f->s;
-    for (size_t i = 0; i < f->chosen.n; i++) {
+    for (size_t i = 0; f && i < f->chosen.n; i++) {
         size_t input = f->chosen.used[i];
         fill_functions(s, input, random_pair(sample, SHIFT, input, RANDOM_SAMPLE).u[0], s->room);
     }
     for (size_t p = 0; p < s->points; p++) {
         size_t other = (size_t)(random_pair(sample, p, 0, RANDOM_SAMPLE).u[1] * (double)s->points);
-        s->values[p] = s->c.means[GROUPS] + f->kept * f->left[other] / sqrt(1 - f->leverage[other]);
+        s->values[p] = f ? s->c.means[GROUPS] + f->kept * f->left[other] / sqrt(1 - f->leverage[other]) : values[other];
     }
-    for (size_t j = 0; j < f->terms.n; j++)
+    for (size_t j = 0; f && j < f->terms.n; j++)
         for (size_t p = 0; p < s->points; p++)
             s->values[p] += (f->mean[j] + f->change[j]) * (term_at(s, s->room, &f->terms.items[j], p) - f->means[j]);
     bound(&s->c, s->values);
@@ -750,13 +705,6 @@ static void read_quality(const struct solution *f, struct ceduo_surface_fit *fit
     fit->explained = 1 - fmax(0, common[0]) / common[1];
 }
 
-static void set_band(struct ceduo_surface_fit *fit, const struct band *b)
-{
-    fit->p5 = b->ends[P5], fit->p50 = b->ends[P50], fit->p95 = b->ends[P95];
-    fit->p5_se = band_se(b, P5), fit->p95_se = band_se(b, P95);
-    fit->below = (struct ceduo_share){b->ends[BELOW], band_se(b, BELOW)};
-}
-
 /* Adds the squares of what the shares of one differ from those of the other. */
 static void add_squares(const struct parts *a, const struct parts *b, double noise, double *sums)
 {
@@ -764,54 +712,42 @@ static void add_squares(const struct parts *a, const struct parts *b, double noi
         sums[i] += pow(share_of(a, noise, i) - share_of(b, noise, i), 2);
 }
 
-/* Shares with their errors, the band of the values with its own, and what is left of it. False without memory. */
-static bool read_solution(struct ceduo_surface *s, struct solution *f, struct ceduo_surface_fit *fit)
+/* Set shares with their errors, the range of the values with its own, and what is left of it. `f` NULL: the points alone. */
+static void read_solution(struct ceduo_surface *s, struct solution *f, struct ceduo_surface_fit *fit)
 {
     struct parts *found = &s->found, *other = &s->other;
-    double *of_rocks = calloc(2 * found->n, sizeof *of_rocks);
-    if (!of_rocks)
-        return false;
-    double *of_points = of_rocks + found->n;
-    fill_parts(f, GROUPS, found);
-    s->c.remains = f->remains, s->c.kept = f->kept;
-    fit->variance = fmax(0, found->all) + f->spare;
-    read_quality(f, fit);
-    struct band band = read_band(s);
-    for (size_t g = 0; g < GROUPS; g++) {
-        fill_parts(f, g, other);
+    double *of_rocks = s->squares, *of_points = of_rocks + found->n;
+    struct band band;
+    memset(s->squares, 0, 2 * found->n * sizeof *s->squares);
+    if (f) {
+        fill_parts(f, GROUPS, f->spare, NULL, found);
+        s->c.remains = f->remains, s->c.kept = f->kept;
+        fit->variance = fmax(0, found->all) + f->spare;
+        read_quality(f, fit);
+    }
+    for (size_t g = 0; f && g < GROUPS; g++) {
+        fill_parts(f, g, spare_of(f, g), NULL, other);
         add_squares(other, found, fit->noise, of_rocks);
     }
+    read_band(s, &band);
+    read_values(&s->c, fit->values);
     for (size_t b = 0; b < SAMPLES; b++) {
-        if (f->kept > 0) {
+        if (f && f->kept > 0) {
             draw_parts(f, b, other);
             add_squares(other, found, fit->noise, of_points);
         }
-        draw_values(f, b);
-        add_sample(&band, &s->c, s->values);
+        draw_values(s, f, b, fit->values);
+        read_ends(s->values, s->points, s->c.figure->limit, band.samples[b]);
     }
-    for (size_t i = 0; i < found->n; i++)
+    fit->p5 = band.ends[P5], fit->p50 = band.ends[P50], fit->p95 = band.ends[P95];
+    fit->p5_se = band_se(&band, P5), fit->p95_se = band_se(&band, P95);
+    fit->below = (struct ceduo_share){band.ends[BELOW], band_se(&band, BELOW)};
+    for (size_t i = 0; f && i < found->n; i++)
         fit->first[i] = (struct ceduo_share){share_of(found, fit->noise, i),
                                              sqrt(of_rocks[i] * student() * (GROUPS - 1) / GROUPS + of_points[i] / SAMPLES)};
     fit->whole = fit->first[found->n - 1];
-    set_band(fit, &band);
-    read_values(&s->c, fit->values);
-    for (size_t i = 0; i < s->inputs_count; i++) /* in the mean no more than now: what seems more is error */
+    for (size_t i = 0; f && i < s->inputs_count; i++) /* in the mean no more than now: what seems more is error */
         fit->left[i] = fmin(left_of(f, fit->values, i), fit->p95 - fit->p5);
-    free(of_rocks);
-    return true;
-}
-
-/* Without a surface: the points alone, drawn anew. */
-static void read_points(struct ceduo_surface *s, struct ceduo_surface_fit *fit)
-{
-    struct band band = read_band(s);
-    read_values(&s->c, fit->values);
-    for (size_t b = 0; b < SAMPLES; b++) {
-        for (size_t p = 0; p < s->points; p++)
-            s->values[p] = fit->values[(size_t)(random_pair(b, p, 0, RANDOM_SAMPLE).u[1] * (double)s->points)];
-        add_sample(&band, &s->c, s->values);
-    }
-    set_band(fit, &band);
 }
 
 /* Sorts the inputs by the variance that they bring in a fit without products, the most first; words before all, as they decide
@@ -824,15 +760,10 @@ static bool rank(struct ceduo_surface *s, const struct chosen *chosen)
     size_t *used = chosen->used;
     if (!f)
         return false;
-    fill_parts(f, GROUPS, &s->found);
-    for (size_t i = 0; i < chosen->n; i++)
-        if (is_word(s, used[i]))
-            total[used[i]] = INFINITY;
+    fill_parts(f, GROUPS, f->spare, NULL, &s->found);
     for (size_t i = 0; i < chosen->n; i++) {
-        size_t input = used[i], at = i;
-        for (; at > 0 && total[used[at - 1]] < total[input]; at--)
-            used[at] = used[at - 1];
-        used[at] = input;
+        total[used[i]] = is_word(s, used[i]) ? -INFINITY : -total[used[i]];
+        ceduo_insert_index(total, used[i], i, used);
     }
     return true;
 }
@@ -845,29 +776,28 @@ static bool choose(struct ceduo_surface *s, struct chosen *chosen)
     for (size_t i = 0; i < s->inputs_count; i++)
         if ((!uses || uses[i]) && s->of[i].count > 0)
             chosen->used[chosen->n++] = i;
-    chosen->enough = s->c.variance > 0 && chosen->n > 0 && is_enough(s, chosen);
-    if (!chosen->enough && s->c.variance > 0 && chosen->n > 0) {
-        chosen->linear = true;
-        chosen->enough = is_enough(s, chosen);
-    }
+    if (!(s->c.variance > 0) || chosen->n == 0)
+        return true;
+    chosen->linear = !is_enough(s, chosen);
+    chosen->enough = is_enough(s, chosen);
     if (!chosen->enough)
         return true;
     struct chosen tried = *chosen;
     for (tried.leading = chosen->n; !is_enough(s, &tried);) /* without products there are enough */
         tried.leading--;
     chosen->leading = tried.leading;
-    bool ranked = tried.leading < chosen->n;
-    bool good = !ranked || rank(s, &tried);
+    double best = -INFINITY;
+    bool good = true, ranked = false;
     /* products of inputs that do nothing may stand for those of others: fewer are tried */
-    for (double best = -INFINITY; good && tried.leading > 0 && best < ENOUGH; tried.leading /= 2) {
-        struct ceduo_surface_fit fit;
-        if (best > -INFINITY && !ranked)
+    for (; good && tried.leading > 0 && best < ENOUGH; tried.leading /= 2) {
+        struct ceduo_surface_fit fit = {.explained = -INFINITY};
+        if (!ranked && tried.leading < chosen->n)
             good = ranked = rank(s, &tried);
         const struct solution *f = good ? fit_terms(s, &tried) : NULL;
         good = f;
         if (f)
             read_quality(f, &fit);
-        if (f && fit.explained > best)
+        if (fit.explained > best)
             best = fit.explained, chosen->leading = tried.leading;
     }
     return good;
@@ -882,10 +812,10 @@ static bool allocate_fit(struct ceduo_surface_fit *fit, size_t points, size_t n)
     fit->total = fit->first + n;
     fit->left = (double *)(fit->first + 2 * n + 1);
     fit->values = fit->left + n;
-    for (size_t i = 0; i < n; i++) {
-        fit->first[i] = fit->total[i] = (struct ceduo_share){NAN, NAN};
+    for (size_t i = 0; i <= 2 * n; i++)
+        fit->first[i] = (struct ceduo_share){NAN, NAN};
+    for (size_t i = 0; i < n; i++)
         fit->left[i] = NAN;
-    }
     return true;
 }
 
@@ -894,8 +824,8 @@ enum ceduo_status ceduo_surface_fit(struct ceduo_surface *s, const struct ceduo_
 {
     GSL_RETURNS_ERRORS;
     struct chosen chosen;
-    struct solution *f;
-    *fit = (struct ceduo_surface_fit){.q2 = NAN, .explained = NAN, .whole = {NAN, NAN}};
+    struct solution *f = NULL;
+    *fit = (struct ceduo_surface_fit){.q2 = NAN, .explained = NAN};
     s->c.figure = figure;
     fill_column(&s->c, figure->y, 1);
     fit->mean = s->c.means[GROUPS], fit->variance = s->c.variance, fit->noise = s->c.noise;
@@ -903,9 +833,9 @@ enum ceduo_status ceduo_surface_fit(struct ceduo_surface *s, const struct ceduo_
     fit->enough = good && chosen.enough;
     fit->linear = good && chosen.linear;
     if (fit->enough)
-        good = (f = fit_terms(s, &chosen)) && read_solution(s, f, fit);
-    else if (good)
-        read_points(s, fit);
+        good = (f = fit_terms(s, &chosen));
+    if (good)
+        read_solution(s, f, fit);
     if (!good)
         ceduo_surface_release(fit);
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;

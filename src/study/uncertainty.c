@@ -31,12 +31,11 @@ struct rows {
     struct ceduo_replicates *values; /* of each row, option and kind */
     enum ceduo_uncertainty_kind judged;
     double released;                 /* J: mean energy per released rock without forest */
-    size_t *years, *first_year;      /* of each option how many, and where they begin; NULL: not asked for */
-    double *year_counts;             /* of each option how many years these stand for */
-    struct ceduo_replicates *shares; /* of each year and point */
+    size_t years;                    /* of each option; 0: not asked for */
+    double year_count;               /* years that these stand for */
+    struct ceduo_replicates *shares; /* of each option, year and point */
     bool deciding; /* only figures that decide whether there are points enough are read; otherwise only the others */
-    struct ceduo_uncertainty_ranking *ranking; /* that is made */
-    size_t all;                                /* evaluations, for the progress */
+    size_t all;    /* evaluations, for the progress */
     atomic_size_t done;
     struct talk talk;
 };
@@ -81,8 +80,8 @@ static void read_point(void *context, const struct point *point, const struct co
         const struct ceduo_group_means *b = &at[last].of[g];
         double share = r->judged == CEDUO_UNCERTAINTY_EXCEED ? weight * b->exceed_probability : b->reach_probability;
         double *mean = &values[CEDUO_UNCERTAINTY_MEAN].of[g]; /* of the years, added up as they come */
-        r->shares[(r->first_year[point->option] + point->slot - 1) * r->most + point->row - r->ends].of[g] = share;
-        *mean = (point->slot == 1 ? 0 : *mean) + share / (double)r->years[point->option];
+        r->shares[(point->option * r->years + point->slot - 1) * r->most + point->row - r->ends].of[g] = share;
+        *mean = (point->slot == 1 ? 0 : *mean) + share / (double)r->years;
     }
     if (point->slot > 0)
         return;
@@ -100,24 +99,15 @@ static void read_point(void *context, const struct point *point, const struct co
 static enum ceduo_status open_rows(struct rows *r, const struct ceduo_uncertainty_def *def,
                                    struct ceduo_uncertainty_result *answer)
 {
-    size_t n = def->inputs_count, years = 0;
+    size_t n = def->inputs_count;
     *r = (struct rows){.def = def, .answer = answer, .ends = def->brief ? 0 : 2 * n, .options = def->scene->options_count};
     r->most = def->points_max > 0 ? def->points_max : CEDUO_UNCERTAINTY_POINTS_MAX;
     r->most = def->points > r->most ? def->points : r->most;
     r->u = ceduo_arena_alloc(&r->memory, (r->ends + r->most) * n * sizeof *r->u);
     r->values = ceduo_arena_alloc(&r->memory, (r->ends + r->most) * r->options * CEDUO_UNCERTAINTY_KINDS * sizeof *r->values);
-    if (def->rotation) {
-        r->years = ceduo_arena_alloc(&r->memory, (r->options + 1) * sizeof *r->years);
-        r->first_year = ceduo_arena_alloc(&r->memory, (r->options + 1) * sizeof *r->first_year);
-        r->year_counts = ceduo_arena_alloc(&r->memory, (r->options + 1) * sizeof *r->year_counts);
-    }
-    for (size_t i = 0; r->years && !r->memory.failed && i < r->options; i++) {
-        r->years[i] = ceduo_points_years(def);
-        r->year_counts[i] = (double)ceduo_points_window(def);
-        r->first_year[i] = years;
-        years += r->years[i];
-    }
-    r->shares = ceduo_arena_alloc(&r->memory, years * r->most * sizeof *r->shares);
+    r->years = def->rotation ? ceduo_points_years(def) : 0;
+    r->year_count = def->rotation ? (double)ceduo_points_window(def) : 0;
+    r->shares = ceduo_arena_alloc(&r->memory, r->options * r->years * r->most * sizeof *r->shares);
     if (r->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t row = 0; row < r->ends; row++)
@@ -153,15 +143,6 @@ const struct ceduo_uncertainty_figure *ceduo_uncertainty_find_figure(const struc
     if (option >= options || kind >= CEDUO_UNCERTAINTY_KINDS || (difference && option == 0))
         return NULL;
     return &answer->figures[figure_at(options, option, kind, difference)];
-}
-
-/* Puts index i, one more than there are, behind those of values that are no larger. */
-static void insert_index(const double *values, size_t i, size_t *order)
-{
-    size_t at = i;
-    for (; at > 0 && values[order[at - 1]] > values[i]; at--)
-        order[at] = order[at - 1];
-    order[at] = i;
 }
 
 /* What a surface is made of: an option, or its difference to another one, which inputs they have, and room for a figure at the
@@ -251,7 +232,7 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
         !f->difference && (f->kind == r->judged || f->kind == CEDUO_UNCERTAINTY_MEAN) && r->judged == CEDUO_UNCERTAINTY_EXCEED;
     double max = f->kind == CEDUO_UNCERTAINTY_ENERGY || f->kind == CEDUO_UNCERTAINTY_CONTACT ? INFINITY : 1;
     if (f->kind == CEDUO_UNCERTAINTY_FAILING)
-        max = fmax(r->year_counts[s->option], r->year_counts[s->against]);
+        max = r->year_count;
     for (size_t row = 0; row < r->ends; row++) {
         const struct ceduo_replicates y = value_at(r, s, row, f->kind);
         f->at[row / 2][row % 2] = is_rotation(f->kind) ? NAN : ceduo_groups_mean(&y, def->rocks);
@@ -267,7 +248,7 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
     for (size_t i = 0; i < def->inputs_count; i++) {
         f->uses += s->uses[i];
         s->left[i] = !s->uses[i] ? INFINITY : isnan(f->fit.left[i]) ? 0 : f->fit.left[i];
-        insert_index(s->left, i, f->order);
+        ceduo_insert_index(s->left, i, i, f->order);
     }
     return CEDUO_OK;
 }
@@ -276,7 +257,7 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
 static bool is_there(const struct rows *r, enum ceduo_uncertainty_kind kind)
 {
     if (is_rotation(kind))
-        return r->years && (kind == CEDUO_UNCERTAINTY_MEAN || r->judged == CEDUO_UNCERTAINTY_EXCEED);
+        return r->years > 0 && (kind == CEDUO_UNCERTAINTY_MEAN || r->judged == CEDUO_UNCERTAINTY_EXCEED);
     bool share = kind == CEDUO_UNCERTAINTY_REACH || kind == CEDUO_UNCERTAINTY_EXCEED;
     return !r->def->brief || (share ? kind == r->judged : kind != CEDUO_UNCERTAINTY_ENERGY || kind == r->answer->main);
 }
@@ -323,19 +304,18 @@ static int count_years(void *context, size_t option, size_t worker)
     const struct rows *r = context;
     if (!is_asked(r, option))
         return CEDUO_OK;
-    size_t years = r->years[option], points = r->points;
-    double limit = limit_of(r->def->scene);
+    size_t years = r->years, points = r->points;
+    double limit = limit_of(r->def->scene), each = r->year_count / (double)years;
     struct subject s;
     enum ceduo_status status = open_subject(r, option, option, &s);
-    double *values = ceduo_arena_alloc(&s.memory, years * points * sizeof *values),
-           each = r->year_counts[option] / (double)years;
+    double *values = ceduo_arena_alloc(&s.memory, years * points * sizeof *values);
     struct ceduo_replicates *y = ceduo_arena_alloc(&s.memory, years * points * sizeof *y);
     struct ceduo_replicates *changes = ceduo_arena_alloc(&s.memory, years * points * sizeof *changes);
     status = s.memory.failed ? CEDUO_NO_MEMORY : status;
     if (status == CEDUO_OK) {
         choose_inputs(r, &s, CEDUO_UNCERTAINTY_FAILING);
         for (size_t k = 0; k < years; k++)
-            memcpy(y + k * points, r->shares + (r->first_year[option] + k) * r->most, points * sizeof *y);
+            memcpy(y + k * points, r->shares + (option * years + k) * r->most, points * sizeof *y);
         const struct ceduo_surface_figure figure = {.y = y, .uses = s.uses, .hi = 1, .limit = NAN};
         status = ceduo_surface_values(s.surface, &figure, years, values, changes);
     }
@@ -359,7 +339,7 @@ static bool wants_more(const struct rows *r)
 {
     const struct ceduo_uncertainty_result *a = r->answer;
     for (size_t i = 0; i < r->options; i++)
-        for (size_t over = is_asked(r, i) ? 0 : 2; over < (r->years ? 2 : 1); over++) {
+        for (size_t over = is_asked(r, i) ? 0 : 2; over < (r->years > 0 ? 2 : 1); over++) {
             const struct ceduo_surface_fit *fit =
                 &ceduo_uncertainty_find_figure(a, i, over ? CEDUO_UNCERTAINTY_MEAN : a->main, false)->fit;
             if (fit->enough && !fit->linear ? fit->explained < CEDUO_UNCERTAINTY_EXPLAINED
@@ -384,7 +364,7 @@ static void set_years(const struct rows *r, struct ceduo_years *const *years, bo
     double first[3] = {0};
     for (size_t i = 0, options = r->options; i < options; i++) {
         size_t control = years[i]->last_control;
-        double each = r->year_counts[i] / (double)years[i]->count; /* years that one year stands for */
+        double each = r->year_count / (double)years[i]->count; /* years that one year stands for */
         struct ceduo_years_summary s = ceduo_years_sum(years[i], control);
         struct ceduo_uncertainty_figure *f = &answer->figures[i * CEDUO_UNCERTAINTY_KINDS],
                                         *d = &answer->figures[figure_at(options, i, CEDUO_UNCERTAINTY_REACH, i > 0)];
@@ -425,7 +405,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
     q.run.threads = def->threads;
     q.run.cancel = def->cancel;
     q.run.arrivals_only = true;
-    q.years = rows->years;
+    q.years = rows->years > 0;
     q.window = def->window;
     q.year_rocks = CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS;
     enum ceduo_status status = def->own ? CEDUO_OK : ceduo_simulate_request(&q, NULL, &asked);
@@ -454,7 +434,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
         answer->main = judges ? CEDUO_UNCERTAINTY_EXCEED : CEDUO_UNCERTAINTY_ENERGY;
         rows->judged = judges ? CEDUO_UNCERTAINTY_EXCEED : CEDUO_UNCERTAINTY_REACH;
         rows->released = is->result->bare.arrivals[is->result->last_control].energy_per_released.mean;
-        if (rows->years)
+        if (rows->years > 0)
             set_years(rows, is->years, judges);
     }
     ceduo_results_release(&asked);
@@ -473,8 +453,8 @@ static int compare_pair(void *context, size_t item, size_t worker)
 {
     (void)worker;
     const struct rows *r = context;
-    struct ceduo_uncertainty_order *o = &r->ranking->orders[item];
-    enum ceduo_uncertainty_kind kind = r->ranking->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
+    struct ceduo_uncertainty_order *o = &r->answer->orders[item];
+    enum ceduo_uncertainty_kind kind = r->answer->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
     struct subject s;
     struct ceduo_surface_fit found = {0};
     enum ceduo_status status = open_subject(r, o->better, o->than, &s);
@@ -499,28 +479,22 @@ static int compare_pair(void *context, size_t item, size_t worker)
     return (int)status;
 }
 
-static enum ceduo_status rank_options(struct rows *r, bool rotation, struct ceduo_uncertainty_ranking *ranking)
+static enum ceduo_status rank_options(struct rows *r)
 {
+    struct ceduo_uncertainty_result *a = r->answer;
     size_t options = r->options, *ranks = ceduo_arena_alloc(&r->memory, options * sizeof *ranks);
     double *values = ceduo_arena_alloc(&r->memory, options * sizeof *values);
-    r->ranking = ranking;
-    ranking->rotation = rotation;
-    ranking->orders = calloc(options, sizeof *ranking->orders);
-    if (r->memory.failed || !ranking->orders)
+    a->orders = calloc(options, sizeof *a->orders);
+    if (r->memory.failed || !a->orders)
         return CEDUO_NO_MEMORY;
-    ranking->count = options - 1;
+    a->orders_count = options - 1;
     for (size_t i = 0; i < options; i++) {
-        values[i] = value_of(r, i, rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main);
-        insert_index(values, i, ranks);
+        values[i] = value_of(r, i, a->rotation ? CEDUO_UNCERTAINTY_MEAN : a->main);
+        ceduo_insert_index(values, i, i, ranks);
     }
-    for (size_t i = 0; i < ranking->count; i++)
-        ranking->orders[i] = (struct ceduo_uncertainty_order){.better = ranks[i], .than = ranks[i + 1]};
-    return (enum ceduo_status)ceduo_parallel(&(struct parallel){ranking->count, r->def->threads, compare_pair, r});
-}
-
-const struct ceduo_uncertainty_ranking *ceduo_uncertainty_ranking_by(const struct ceduo_uncertainty_result *answer)
-{
-    return answer->rotation ? &answer->over_rotation : &answer->today;
+    for (size_t i = 0; i < a->orders_count; i++)
+        a->orders[i] = (struct ceduo_uncertainty_order){.better = ranks[i], .than = ranks[i + 1]};
+    return (enum ceduo_status)ceduo_parallel(&(struct parallel){a->orders_count, r->def->threads, compare_pair, r});
 }
 
 /* ---- all of it ---- */
@@ -575,15 +549,13 @@ enum ceduo_status ceduo_uncertainty_compute(const struct ceduo_uncertainty_def *
         if (2 * points > rows.most || !wants_more(&rows))
             break;
     }
-    answer->rotation = rows.years;
-    if (status == CEDUO_OK && rows.years && rows.judged == CEDUO_UNCERTAINTY_EXCEED)
+    answer->rotation = rows.years > 0;
+    if (status == CEDUO_OK && rows.years > 0 && rows.judged == CEDUO_UNCERTAINTY_EXCEED)
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){rows.options, def->threads, count_years, &rows});
     if (status == CEDUO_OK)
         status = read_figures(&rows, false);
     if (status == CEDUO_OK && !def->alone)
-        status = rank_options(&rows, false, &answer->today);
-    if (status == CEDUO_OK && !def->alone && rows.years)
-        status = rank_options(&rows, true, &answer->over_rotation);
+        status = rank_options(&rows);
     answer->points = rows.points;
     answer->rocks = enough.rocks;
     answer->evaluations = rows.ends + rows.points;
@@ -598,8 +570,7 @@ void ceduo_uncertainty_free(struct ceduo_uncertainty_result *answer)
     for (size_t i = 0; i < answer->figures_count; i++)
         ceduo_surface_release(&answer->figures[i].fit);
     free(answer->figures);
-    free(answer->today.orders);
-    free(answer->over_rotation.orders);
+    free(answer->orders);
     *answer = (struct ceduo_uncertainty_result){0};
 }
 
@@ -620,13 +591,14 @@ size_t ceduo_uncertainty_dominant_inputs(const struct ceduo_scene *scene, const 
     if (decided || !f->fit.enough || !(f->fit.p5 <= limit && f->fit.p95 > limit))
         return 0;
     const struct ceduo_share *total = f->fit.total;
-    size_t first = f->order[0], second = SIZE_MAX;
-    for (size_t i = 1; i < f->uses; i++)
-        if (total[f->order[i]].value > total[first].value)
-            first = f->order[i];
-    for (size_t i = 0; i < f->uses; i++)
-        if (f->order[i] != first && (second == SIZE_MAX || total[f->order[i]].value > total[second].value))
-            second = f->order[i];
+    size_t first = SIZE_MAX, second = SIZE_MAX;
+    for (size_t i = 0; i < f->uses; i++) {
+        size_t at = f->order[i];
+        if (first == SIZE_MAX || total[at].value > total[first].value)
+            second = first, first = at;
+        else if (second == SIZE_MAX || total[at].value > total[second].value)
+            second = at;
+    }
     inputs[0] = first;
     inputs[1] = second;
     return second != SIZE_MAX && total[second].value >= ALSO * total[first].value ? 2 : 1;

@@ -2,9 +2,7 @@
 #include "verdict.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-#include "base/must.h"
 #include "ceduo/key.h"
 #include "ceduo/uncertainty.h"
 
@@ -105,23 +103,23 @@ struct ceduo_mean_share ceduo_share_over_years(const struct ceduo_years *years, 
     return (struct ceduo_mean_share){mean.mean, ceduo_half_width_of_share(mean.mean, mean.se, years->rocks)};
 }
 
-static bool read_years(const struct ceduo_years *years, struct ceduo_choice *c)
+static void read_years(const struct ceduo_years *years, struct arena *memory, struct ceduo_choice *c)
 {
     size_t controls = years->scene.controls_count;
-    c->ahead = malloc(controls * sizeof *c->ahead);
-    for (size_t k = 0; c->ahead && k < controls; k++)
-        c->ahead[k] = ceduo_years_sum(years, k);
-    if (!c->ahead)
-        return false;
-    const struct ceduo_years_summary s = c->over = c->ahead[years->last_control];
+    struct ceduo_years_summary *ahead = ceduo_arena_alloc(memory, controls * sizeof *ahead);
+    if (!ahead)
+        return;
+    for (size_t k = 0; k < controls; k++)
+        ahead[k] = ceduo_years_sum(years, k);
+    c->ahead = ahead;
+    c->over = &ahead[years->last_control];
     c->rocks = years->rocks;
-    c->energy_known &= !s.nothing;
-    c->worst.mean = s.worst; /* by the index an ADC: it has no error */
+    c->energy_known &= !c->over->nothing;
+    c->worst.mean = c->over->worst; /* by the index an ADC: it has no error */
     for (size_t i = 0; i < years->count; i++)
-        if (years->years[i].year == s.worst_year && years->years[i].wooded.rocks > 0)
+        if (years->years[i].year == c->over->worst_year && years->years[i].wooded.rocks > 0)
             c->worst = ceduo_share_at(&years->years[i].wooded.arrivals[years->last_control]);
-    c->mean = ceduo_share_over_years(years, &s);
-    return true;
+    c->mean = ceduo_share_over_years(years, c->over);
 }
 
 /* Year of the next cut if it is due, otherwise 0. */
@@ -137,18 +135,21 @@ static unsigned due_cut(const struct ceduo_option *option)
 }
 
 static enum ceduo_status read_choice(const struct ceduo_result *r, const struct ceduo_years *years,
-                                     const struct ceduo_years *whole, size_t option, struct ceduo_choice *c)
+                                     const struct ceduo_years *whole, size_t option, struct arena *memory,
+                                     struct ceduo_choice *c)
 {
+    static const struct ceduo_years_summary no_years;
     const struct ceduo_mean_share unknown = {NAN, NAN};
     const struct ceduo_option *o = &r->scene->options[option];
     struct ceduo_window rotation = ceduo_window_compute(o);
-    *c = (struct ceduo_choice){.today = unknown, .worst = unknown, .mean = unknown, .rotation = unknown, .cut = due_cut(o)};
+    *c = (struct ceduo_choice){
+        .today = unknown, .worst = unknown, .mean = unknown, .rotation = unknown, .over = &no_years, .cut = due_cut(o)};
     c->window = years ? years->window : ceduo_window_in(r->scene);
     if (r->scene->controls_count > 0) {
         c->today = ceduo_share_at(ceduo_result_wooded(r, option, r->last_control));
         c->energy_known = r->wooded && !isnan(r->scene->controls[r->last_control].accepted);
-        if (years && !read_years(years, c))
-            return CEDUO_NO_MEMORY;
+        if (years)
+            read_years(years, memory, c);
         if (whole) {
             const struct ceduo_years_summary s = ceduo_years_sum(whole, whole->last_control);
             c->rotation = ceduo_share_over_years(whole, &s);
@@ -180,9 +181,8 @@ static double errors_worse(difference_of *difference, const void *context, size_
     return d.mean / d.se;
 }
 
-/* Pairs of which under one law the order is clear, and under the other it is the other way round by more than chance makes likely.
- * False without memory. */
-static bool find_turned(const struct ceduo_result *r, struct ceduo_verdict *v)
+/* Pairs of which under one law the order is clear, and under the other it is the other way round by more than chance makes likely. */
+static void find_turned(const struct ceduo_result *r, struct ceduo_verdict *v)
 {
     size_t room = 0;
     for (size_t i = 0; i < v->n; i++)
@@ -190,13 +190,11 @@ static bool find_turned(const struct ceduo_result *r, struct ceduo_verdict *v)
             double now = errors_worse(difference_today, r, k, i), other = errors_worse(difference_by_other_law, r, i, k);
             if (i == k || !(fmin(now, other) > 1 && fmax(now, other) > CEDUO_CLEAR))
                 continue;
-            struct ceduo_rank_reversal *grown = ceduo_grow(v->turned, v->turned_count, &room, sizeof *grown);
-            if (!grown)
-                return false;
-            v->turned = grown;
+            v->turned = ceduo_arena_grow(&v->memory, v->turned, v->turned_count, 1, &room, sizeof *v->turned);
+            if (v->memory.failed)
+                return;
             v->turned[v->turned_count++] = (struct ceduo_rank_reversal){i, k};
         }
-    return true;
 }
 
 static uint64_t rocks_of(const struct ceduo_result *r, struct ceduo_years *const *years, size_t option)
@@ -330,12 +328,13 @@ enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ced
         .wooded = r->wooded && r->scene->controls_count > 0,
         .accepted = r->scene->controls_count > 0 && !isnan(r->scene->controls[r->last_control].accepted),
         .nothing = r->scene->controls_count > 0 && ceduo_too_few_arrivals(&r->bare.arrivals[r->last_control]),
-        .choices = calloc(n + 1, sizeof *v->choices)};
-    v->today.rival = calloc(n + 1, sizeof *v->today.rival);
-    v->rotation.rival = calloc(n + 1, sizeof *v->rotation.rival);
-    enum ceduo_status status = v->choices && v->today.rival && v->rotation.rival ? CEDUO_OK : CEDUO_NO_MEMORY;
+    };
+    v->choices = ceduo_arena_alloc(&v->memory, (n + 1) * sizeof *v->choices);
+    v->today.rival = ceduo_arena_alloc(&v->memory, (n + 1) * sizeof *v->today.rival);
+    v->rotation.rival = ceduo_arena_alloc(&v->memory, (n + 1) * sizeof *v->rotation.rival);
+    enum ceduo_status status = v->memory.failed ? CEDUO_NO_MEMORY : CEDUO_OK;
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
-        status = read_choice(r, years ? years[i] : NULL, rotations ? rotations[i] : NULL, i, &v->choices[i]);
+        status = read_choice(r, years ? years[i] : NULL, rotations ? rotations[i] : NULL, i, &v->memory, &v->choices[i]);
         v->n = i + 1;
     }
     if (status == CEDUO_OK && !v->nothing) {
@@ -344,8 +343,11 @@ enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ced
             find_leader(r, years, v, &v->rotation);
         for (size_t i = 0; i < n && v->rotation.known; i++)
             v->choices[i].beaten = is_beaten(years, v, i);
-        status = !v->wooded || find_turned(r, v) ? CEDUO_OK : CEDUO_NO_MEMORY;
+        if (v->wooded)
+            find_turned(r, v);
     }
+    if (v->memory.failed)
+        status = CEDUO_NO_MEMORY;
     if (status != CEDUO_OK)
         ceduo_verdict_release(v);
     return status;
@@ -353,13 +355,8 @@ enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ced
 
 void ceduo_verdict_release(struct ceduo_verdict *v)
 {
-    for (size_t i = 0; i < v->n; i++) {
+    for (size_t i = 0; i < v->n; i++)
         ceduo_yield_release(&v->choices[i].yield);
-        free(v->choices[i].ahead);
-    }
-    free(v->choices);
-    free(v->today.rival);
-    free(v->rotation.rival);
-    free(v->turned);
+    ceduo_arena_free(&v->memory);
     *v = (struct ceduo_verdict){0};
 }

@@ -2,6 +2,7 @@
 #ifndef CEDUO_VERDICT_H
 #define CEDUO_VERDICT_H
 
+#include "base/arena.h"
 #include "ceduo/result.h"
 #include "ceduo/years.h"
 #include "ceduo/yield.h"
@@ -35,8 +36,8 @@ struct ceduo_estimate ceduo_share_to_first(const struct ceduo_result *result, si
 /* What is known of one option. */
 struct ceduo_choice {
     struct ceduo_mean_share today, worst, mean; /* worst and mean: of the years */
-    struct ceduo_years_summary over;            /* of the years at the last control; years 0: they are not known */
-    struct ceduo_years_summary *ahead;          /* the same at each control; NULL: not known */
+    const struct ceduo_years_summary *ahead;    /* of the years, at each control; NULL: not known */
+    const struct ceduo_years_summary *over;     /* at the last control; years 0: not known */
     struct ceduo_mean_share rotation;           /* mean over a whole rotation, ceduo_window_compute(); NaN: not known */
     uint64_t rocks;                             /* in each of them, which may be fewer than today */
     bool energy_known;                          /* in how many of them the light of energy fails */
@@ -66,6 +67,7 @@ struct ceduo_rank_reversal {
 };
 
 struct ceduo_verdict {
+    struct arena memory;
     bool wooded, accepted; /* rocks fly through the forests; an accepted energy is given */
     bool nothing;          /* nothing can be said of any forest (ceduo_too_few_arrivals()): no option is best, no year fails */
     size_t n;

@@ -18,7 +18,7 @@ static void append_command(struct app *app, struct text *text, const char *how)
 {
     struct document *d = &app->document;
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
-    uint64_t rocks = shown ? shown->released : d->file.scene.simulation.rocks;
+    uint64_t rocks = shown ? ceduo_released(shown) : d->file.scene.simulation.rocks;
     ceduo_text_format(text, "ceduo %s -n %llu ", how, (unsigned long long)rocks);
     ceduo_text_quoted(text, d->path ? d->path : "scene.yaml");
 }
@@ -33,7 +33,7 @@ static void show_command(struct app *app, struct popup *p)
         ceduo_text_format(&p->text,
                           app->live.busy ? _("\nThe figures on the screen are of %llu rocks; more are falling.\n")
                                          : _("\nThe figures on the screen are of %llu rocks.\n"),
-                          (unsigned long long)shown->released);
+                          (unsigned long long)ceduo_released(shown));
     else
         ceduo_text_append(&p->text, _("\nThere are no figures yet: -n is what the scene says.\n"));
     if (ceduo_document_unsaved(&app->document))

@@ -2,19 +2,20 @@
 /* View 5: the silvicultural options side by side, today and over one whole rotation of each. */
 #include "base/language.h"
 #include "popup.h"
+#include "view/page_parts.h"
 
 static void build(struct app *app, struct form *form)
 {
     if (ceduo_node_get(app->document.file.root, "options"))
         ceduo_form_table(form, "options", NULL, "name");
     else
-        ceduo_form_note(form, _("One way to treat this forest so far. a adds another, y a copy of this one."));
+        ceduo_form_note(form, _("Only one option. Press a to add a preset, y to copy."));
     form->row = app->option + 1; /* below the names of the columns */
 }
 
 enum { PANE_TABLE, PANE_COMPARE, PANE_TRADEOFF, PANES };
 
-#define HEADS        2   /* lines above the table */
+#define HEADS        3   /* lines above the table */
 #define WORDS_MIN    4   /* lines of what is said below it, where there are so many options */
 #define TRADEOFF_MIN 11  /* lines of the picture of protection against yield */
 #define BESIDE_MIN   128 /* columns that hold the table and a picture beside it */
@@ -35,7 +36,8 @@ static void draw_table(struct app *app, struct ceduo_area area)
            room = area.height > HEADS + WORDS_MIN + 1 ? (size_t)(area.height - HEADS - WORDS_MIN - 1) : 1;
     size_t shown = n <= room ? n : room - (room > 1);
     size_t first = app->option >= shown ? app->option - shown + 1 : 0;
-    ceduo_pane_options(&table, &pane, first, shown);
+    ceduo_page_shares(&table, pane.report, true);
+    ceduo_page_options(&table, pane.report, CEDUO_OPTIONS_PANE, pane.report->result->last_control, app->option, first, shown);
     if (shown < n)
         ceduo_page_para(&table, CEDUO_PAGE_NOTE, _("%zu\xe2\x80\x93%zu of %zu options; up, down: the others"), first + 1,
                         first + shown, n);

@@ -13,9 +13,6 @@ static void draw_page(struct app *app, struct ceduo_area area, const struct cedu
     area.width -= 2; /* the mark of more below stands beside the text */
     struct ceduo_page page = {.width = (size_t)area.width};
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
-    ceduo_pane_belts(&page, &pane);
-    ceduo_pane_residual(&page, &pane);
-    ceduo_page_add(&page, CEDUO_PAGE_GAP);
     int rest = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0);
     if (bars) {
         ceduo_plot_add(CEDUO_PLOT_HISTOGRAM, &page, picture,

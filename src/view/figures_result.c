@@ -60,7 +60,7 @@ static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
 static const struct ceduo_choice *window_at(const struct ceduo_place *p)
 {
     const struct ceduo_choice *c = ceduo_report_ahead(p->report, p->option);
-    return c && c->over.simulated > 0 ? c : NULL;
+    return c && c->over->simulated > 0 ? c : NULL;
 }
 
 static const struct ceduo_stand_result *belt_result(const struct ceduo_place *p)
@@ -215,7 +215,8 @@ VALUE(judgement_today, place, TEXT, WORD(o->year ? NULL : ceduo_words_judgement(
 VALUE(window_lo, choice, NUMBER, NUMBER(fmax(0, o->mean.mean - o->mean.half)))
 VALUE(window_hi, choice, NUMBER, NUMBER(fmin(1, o->mean.mean + o->mean.half)))
 VALUE(window_worst, choice, NUMBER, NUMBER(o->worst.mean))
-VALUE(window_failing, choice, COUNT, o->energy_known ? COUNT(o->over.unprotected_energy) : NOTHING)
+VALUE(window_worst_year, choice, COUNT, COUNT(o->over->worst_year))
+VALUE(window_failing, choice, COUNT, o->energy_known ? COUNT(o->over->unprotected_energy) : NOTHING)
 VALUE(judgement_of_other, alternative_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
 VALUE(felled_of, place, NUMBER, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, TEXT, WORD("ceduo-find-1"))
@@ -614,7 +615,7 @@ static const struct ceduo_figure window[] = {
     {"mean_lo", "", "lower end of its 95 % interval", .value = window_lo},
     {"mean_hi", "", "upper end of its 95 % interval", .value = window_hi},
     {"worst", "", "the share of the worst year", .value = window_worst},
-    {"worst_year", "y", "that year", AT(choice, over.worst_year)},
+    {"worst_year", "y", "that year", .value = window_worst_year},
     {"failing_years", "", "years in which lights.energy fails", .value = window_failing, .null = UNSAID},
     END};
 

@@ -26,7 +26,7 @@ static double shown(const struct ceduo_place *p, double value)
 
 static const struct ceduo_uncertainty_order *order_of(const struct ceduo_place *p)
 {
-    return &ceduo_uncertainty_ranking_by(p->uncertainty->answer)->orders[p->item];
+    return &p->uncertainty->answer->orders[p->item];
 }
 
 static bool enter_figure(struct ceduo_place *p, size_t i)
@@ -59,7 +59,7 @@ static bool enter_first(struct ceduo_place *p, size_t i)
     return input != SIZE_MAX;
 }
 
-ENTER(enter_order, item, p->uncertainty->answer ? ceduo_uncertainty_ranking_by(p->uncertainty->answer)->count : 0)
+ENTER(enter_order, item, p->uncertainty->answer ? p->uncertainty->answer->orders_count : 0)
 
 static struct ceduo_value end_of(const struct ceduo_place *p, int end)
 {
@@ -118,7 +118,7 @@ VALUE(input_at_hi, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][1])
 VALUE(input_left, place, NUMBER, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
 VALUE(order_better, place, TEXT, WORD(scene_of(o)->options[order_of(o)->better].name_given))
 VALUE(order_than, place, TEXT, WORD(scene_of(o)->options[order_of(o)->than].name_given))
-VALUE(order_over, place, TEXT, WORD(ceduo_uncertainty_ranking_by(o->uncertainty->answer)->rotation ? "rotation" : "today"))
+VALUE(order_over, place, TEXT, WORD(o->uncertainty->answer->rotation ? "rotation" : "today"))
 
 #define NO_BAND    UNSAID ", or there are fewer than 20 points"
 #define FEW_POINTS "there are too few points, or nothing varies"

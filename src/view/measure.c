@@ -69,50 +69,86 @@ void ceduo_measure_uncertainty_over(struct ceduo_measure *m, const struct ceduo_
         set_uncertainty(m, uncertainty, option, CEDUO_UNCERTAINTY_MEAN);
 }
 
-static struct ceduo_measure energy(double mean, double half, int digits, const char *head, const char *phrase)
+struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo_arrivals *arrivals)
 {
-    return (struct ceduo_measure){.value = mean * J_TO_KJ,
-                                  .lo = (mean - half) * J_TO_KJ,
-                                  .hi = (mean + half) * J_TO_KJ,
-                                  .half = NAN,
+    static const struct {
+        const char *name, *phrase;
+    } names[CEDUO_MEASURED] = {[CEDUO_STOPPED] = {N_("stems stop"), N_("stopped by stems before")},
+                               [CEDUO_RESTED] = {N_("at rest"), N_("at rest before")},
+                               [CEDUO_GONE] = {N_("left the slope"), N_("left the slope before")},
+                               [CEDUO_ENDLESS] = {N_("unfinished"), N_("never come to an end")},
+                               [CEDUO_MEAN_KJ] = {N_("mean kJ"), N_("mean energy of those that arrive, kJ")},
+                               [CEDUO_P95_KJ] = {N_("95 % below kJ"), N_("95 % stay below, kJ")},
+                               [CEDUO_RELEASED_KJ] = {N_("kJ a rock"), N_("energy per released rock, kJ")},
+                               [CEDUO_P95_HEIGHT] = {N_("95 % below m"), N_("95 % stay below, m above ground")},
+                               [CEDUO_SPEED] = {N_("mean m/s"), N_("mean speed of those that arrive, m/s")},
+                               [CEDUO_STEMS_HIT] = {N_("stems hit"), N_("stems hit by one that arrives")}};
+    static const struct ceduo_arrivals none;
+    const struct ceduo_arrivals *a = arrivals ? arrivals : &none;
+    const double halves[CEDUO_MEASURED] = {[CEDUO_MEAN_KJ] = J_TO_KJ * ceduo_half_width(a->energy.se, a->reached),
+                                           [CEDUO_RELEASED_KJ] =
+                                               J_TO_KJ * ceduo_half_width(a->energy_per_released.se, a->released),
+                                           [CEDUO_SPEED] = ceduo_half_width(a->speed.se, a->reached)};
+    const double values[CEDUO_MEASURED] = {[CEDUO_STOPPED] = 1000 * a->missed[CEDUO_STOPPED_BY_STEMS],
+                                           [CEDUO_RESTED] = 1000 * a->missed[CEDUO_AT_REST],
+                                           [CEDUO_GONE] = 1000 * a->missed[CEDUO_LEFT_SLOPE],
+                                           [CEDUO_ENDLESS] = 1000 * a->missed[CEDUO_UNFINISHED],
+                                           [CEDUO_MEAN_KJ] = J_TO_KJ * a->energy.mean,
+                                           [CEDUO_P95_KJ] = J_TO_KJ * a->energy.p95,
+                                           [CEDUO_RELEASED_KJ] = J_TO_KJ * a->energy_per_released.mean,
+                                           [CEDUO_P95_HEIGHT] = a->height.p95,
+                                           [CEDUO_SPEED] = a->speed.mean,
+                                           [CEDUO_STEMS_HIT] = a->contacts.mean,
+                                           [CEDUO_P95_TOP] = a->top_p95};
+    double value = a->released > 0 ? values[what] : NAN, half = halves[what] > 0 ? halves[what] : NAN;
+    return (struct ceduo_measure){.value = value,
+                                  .lo = value - half,
+                                  .hi = value + half,
+                                  .half = half,
                                   .may_lo = NAN,
                                   .may_hi = NAN,
-                                  .digits = digits,
-                                  .names = {head, head, head, phrase}};
+                                  .digits = what < CEDUO_MEAN_KJ ? 0 : 3,
+                                  .names = {names[what].name, names[what].name, names[what].name, names[what].phrase}};
 }
 
-struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *a)
+uint64_t ceduo_released(const struct ceduo_arrivals *a)
 {
-    return energy(a ? a->energy.mean : NAN, a ? ceduo_half_width(a->energy.se, a->reached) : NAN, 4, N_("mean kJ"),
-                  N_("mean energy of those that arrive, kJ"));
+    return a ? a->released : 0;
 }
 
-struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *a)
+uint64_t ceduo_reached(const struct ceduo_arrivals *a)
 {
-    return energy(a ? a->energy.p95 : NAN, NAN, 3, N_("95 % below kJ"), N_("95 % of those stay below, kJ"));
+    return a ? a->reached : 0;
 }
 
-struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *a)
+uint64_t ceduo_unfinished(const struct ceduo_arrivals *a)
 {
-    return energy(a ? a->energy_per_released.mean : NAN, a ? ceduo_half_width(a->energy_per_released.se, a->released) : NAN, 3,
-                  N_("kJ a rock"), N_("energy of a rock that starts, kJ"));
+    return a->unfinished;
 }
 
-struct ceduo_measure ceduo_measure_stopped(const struct ceduo_arrivals *a, enum ceduo_end end)
+const struct ceduo_distribution *ceduo_spread(enum ceduo_spread what, const struct ceduo_arrivals *a)
 {
-    static const char *const names[CEDUO_ENDS] = {[CEDUO_STOPPED_BY_STEMS] = N_("stems stop"),
-                                                  [CEDUO_AT_REST] = N_("at rest"),
-                                                  [CEDUO_LEFT_SLOPE] = N_("left the slope"),
-                                                  [CEDUO_UNFINISHED] = N_("unfinished")};
-    struct ceduo_measure m = of_1000((struct ceduo_mean_share){a && a->released > 0 ? a->missed[end] : NAN, NAN}, NAN, NAN);
-    for (int i = 0; i < CEDUO_MEASURE_NAMES; i++)
-        m.names[i] = names[end];
-    return m;
+    return what == CEDUO_SPREAD_SPEED ? &a->speed : what == CEDUO_SPREAD_ENERGY ? &a->energy : &a->height;
 }
 
-struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *a)
+bool ceduo_is_close_call(const struct ceduo_arrivals *a)
 {
-    return energy(a ? a->height.p95 / J_TO_KJ : NAN, NAN, 3, N_("95 % below m"), N_("95 % of those stay below, m"));
+    return a && a->exceed.lo <= a->limit && a->exceed.hi > a->limit && ceduo_energy_light(a) != CEDUO_UNKNOWN;
+}
+
+const struct ceduo_topography *ceduo_topography_at(const struct ceduo_arrivals *a)
+{
+    return &a->topography;
+}
+
+const struct ceduo_hazard *ceduo_hazard_at(const struct ceduo_arrivals *a)
+{
+    return a && !isnan(a->hazard.per_year) ? &a->hazard : NULL;
+}
+
+struct ceduo_estimate ceduo_feared(const struct ceduo_arrivals *a)
+{
+    return ceduo_hazard_at(a) ? ceduo_hazard_feared(&a->hazard) : CEDUO_NO_ESTIMATE;
 }
 
 const char *ceduo_measure_name(struct ceduo_measure m, enum ceduo_measure_name name, char room[CEDUO_WORDS_ROOM])
@@ -148,7 +184,7 @@ const char *ceduo_measure_plausible_range(struct ceduo_measure m, char room[CEDU
 
 const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char room[CEDUO_WORDS_ROOM])
 {
-    bool known = !isnan(m.value) && !isnan(m.half);
+    bool known = !isnan(m.value) && !isnan(m.half) && m.digits == 0;
     snprintf(room, CEDUO_WORDS_ROOM, known ? "%s%s\xc2\xb1%.0f" : "%s", VALUE_OF(m), between, ceil(m.half));
     return room;
 }

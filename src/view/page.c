@@ -50,7 +50,8 @@ struct text *ceduo_page_item(struct ceduo_page *page, enum ceduo_page_kind kind,
 void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n)
 {
     struct ceduo_page_block *table = add_block(page, CEDUO_PAGE_TABLE);
-    table->columns = columns;
+    table->columns = ceduo_check_memory(malloc((n + 1) * sizeof *columns));
+    memcpy(table->columns, columns, n * sizeof *columns);
     table->columns_count = n;
     for (size_t i = 0; i < n; i++) {
         const char *head = columns[i].head && columns[i].head[0] ? ceduo_translate_in(columns[i].head) : "";
@@ -137,14 +138,43 @@ struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct cedu
     return block;
 }
 
+static void free_cell(struct ceduo_page_cell *cell)
+{
+    ceduo_text_free(&cell->text);
+    ceduo_text_free(&cell->shorter);
+    ceduo_text_free(&cell->written);
+}
+
+void ceduo_page_trim(struct ceduo_page *page)
+{
+    struct ceduo_page_block *t = page->last;
+    for (size_t i = t->columns_count; i-- > 0;) {
+        size_t n = t->columns_count, kept = 0;
+        bool empty = true;
+        for (size_t k = n + i; k < t->cells_count; k += n) {
+            const char *text = ceduo_text_string(&t->cells[k].text);
+            empty =
+                empty && (t->cells[k].kind == CEDUO_CELL_BAR ? isnan(t->cells[k].bar.to) : strspn(text, "-?") == strlen(text));
+        }
+        for (size_t k = 0; empty && k < t->cells_count; k++)
+            if (k % n == i)
+                free_cell(&t->cells[k]);
+            else
+                t->cells[kept++] = t->cells[k];
+        if (empty) {
+            memmove(&t->columns[i], &t->columns[i + 1], (n - i - 1) * sizeof *t->columns);
+            t->columns_count--;
+            t->cells_count = kept;
+        }
+    }
+}
+
 static void free_block(struct ceduo_page_block *block)
 {
-    for (size_t i = 0; i < block->cells_count; i++) {
-        ceduo_text_free(&block->cells[i].text);
-        ceduo_text_free(&block->cells[i].shorter);
-        ceduo_text_free(&block->cells[i].written);
-    }
+    for (size_t i = 0; i < block->cells_count; i++)
+        free_cell(&block->cells[i]);
     free(block->cells);
+    free(block->columns);
     ceduo_svg_free(block->svg);
     ceduo_text_free(&block->description);
     ceduo_text_free(&block->text);

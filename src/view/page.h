@@ -40,18 +40,17 @@ struct ceduo_page_column {
 };
 
 enum ceduo_page_flag {
-    CEDUO_SPAN = 1 << 0,  /* the head stands over the next column, too */
     CEDUO_WHOLE = 1 << 1, /* never cut: the row goes on in a line below */
     CEDUO_FITS = 1 << 2,  /* as wide as its widest cell, and no less than its width */
     CEDUO_FILLS = 1 << 3, /* at least its width, and what the others leave: a text that is longer loses its middle, as names
                            * often differ at their ends; a bar is so long */
-    CEDUO_KEPT = 1 << 4   /* left out only where names have no more than their width */
 };
 
-/* Columns without room are left out, the highest rank first. */
+/* Columns without room are left out, the highest rank first: from CEDUO_MINOR on, at most 9, before names are cut. */
 #define CEDUO_DROPPED(rank) ((unsigned)(rank) << 8)
+#define CEDUO_MINOR         7
 
-enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_MEAN, CEDUO_CELL_BAR };
+enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_BAR };
 
 /* A bar in shares of its column, see ceduo_page_scale(); only sinks that draw show it. NaN: not there. */
 struct ceduo_page_bar {
@@ -66,7 +65,7 @@ struct ceduo_page_cell {
     enum ceduo_role role;      /* of its text in a pane, or of its bar; BLANK: as the others */
     struct text text, shorter; /* shorter: where there is no room for the other; may be empty */
     struct text written;       /* of a head: written out, on pages that have room; may be empty */
-    double value, half;        /* a number; half the width of a mean's interval, NaN where it has none */
+    double value;              /* a number */
     int digits;                /* of the number, where there is room for them */
     struct ceduo_page_bar bar;
 };
@@ -75,7 +74,7 @@ struct ceduo_page_block {
     enum ceduo_page_kind kind;
     enum ceduo_role role; /* in a pane; BLANK: that of its kind */
     struct text text; /* UTF-8 with the signs – − ± as they should be; sinks make it safe to print; a label ends in a tab */
-    const struct ceduo_page_column *columns;
+    struct ceduo_page_column *columns;
     size_t columns_count;
     size_t cells_count, cells_room; /* row by row, the heads first */
     struct ceduo_page_cell *cells;
@@ -121,6 +120,8 @@ void ceduo_page_cell_format(struct ceduo_page *page, const char *format, ...) CE
 void ceduo_page_number(struct ceduo_page *page, double value, int digits);
 /* A new cell with a bar up to a value, to which the caller adds a limit or a line around it. */
 struct ceduo_page_bar *ceduo_page_bar(struct ceduo_page *page, double value, enum ceduo_role role);
+/* Removes the columns of the last table that are empty, unknown or "-" in every row. */
+void ceduo_page_trim(struct ceduo_page *page);
 /* Makes shares of the values of all bars of a column: even ones from 0 on, or logarithmic ones from `lo` on. */
 void ceduo_page_scale(struct ceduo_page *page, size_t column, double lo, double hi);
 /* A new cell in a role. */

@@ -116,14 +116,14 @@ size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdic
 static void say_mean(struct ceduo_page *page, const struct ceduo_subject *s)
 {
     const struct ceduo_choice *c = ceduo_report_ahead(s->report, 0);
-    if (!c || c->over.simulated == 0)
+    if (!c || c->over->simulated == 0)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
     LOCAL_TEXT(range);
     if (!isnan(s->mean.may_lo))
         ceduo_text_format(&range, _(" (range %s)"), MAY_BE(s->mean));
     ceduo_text_format(text, _("mean %s%s of 1000, worst %.0f in year %u"), WITH_ERROR(s->mean, " "), ceduo_text_string(&range),
-                      1000 * c->worst.mean, c->over.worst_year);
+                      1000 * c->worst.mean, c->over->worst_year);
     ceduo_text_format(text, _("; today %s"), VALUE_OF(s->today));
     if (s->outcome.today != CEDUO_UNANSWERED)
         ceduo_text_format(text, " (%s)", ceduo_words_decided(s->outcome.today));
@@ -170,19 +170,18 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
             mean = fmax(mean, v->choices[i].mean.half);
     }
     if (!r->wooded) {
-        ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"),
-                          WRITTEN(ceduo_half_width(bare->energy.se, bare->reached) * J_TO_KJ, 2));
+        ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"), WRITTEN(ceduo_measured(CEDUO_MEAN_KJ, bare).half, 2));
     } else if (r->scene->options_count == 1) {
         const struct ceduo_measure m = ceduo_measure_exceeding(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
         ceduo_text_append(&error, SPAN(m, m.lo, m.hi));
     } else if (mean > 0) {
-        ceduo_text_format(text, _("\xc2\xb1%.0f by the number of rocks today (%llu), \xc2\xb1%.0f over years (%llu each)"),
+        ceduo_text_format(text, _("Sampling error: \xc2\xb1%.0f today (%llu rocks), \xc2\xb1%.0f over years (%llu each)."),
                           ceil(1000 * today), rocks, ceil(1000 * mean), (unsigned long long)v->choices[0].rocks);
     } else {
         ceduo_text_format(&error, "\xc2\xb1%.0f", ceil(1000 * today));
     }
     if (error.length > 0)
-        ceduo_text_format(text, _("%s by the number of rocks (%llu)"), error.bytes, rocks);
+        ceduo_text_format(text, _("Sampling error (%llu rocks): %s."), rocks, error.bytes);
 }
 
 /* Of the best option; over the rotation where its uncertainty is known. */
@@ -195,19 +194,18 @@ static void say_uncertainty(struct text *text, const struct ceduo_report *report
     size_t option = over ? v->rotation.best : v ? v->today.best : 0;
     const struct ceduo_measure m = ceduo_subject_find(report, option, r->last_control).today;
     if (!uncertainty || !uncertainty->answer) {
-        ceduo_text_append_joined(text, "; ", "%s.",
+        ceduo_text_append_joined(text, " ", "%s.",
                                  uncertainty && (ceduo_uncertainty_is_off(uncertainty) || uncertainty->inputs->n == 0)
                                      ? ceduo_uncertainty_none(uncertainty)
                                  : uncertainty && uncertainty->too_much
-                                     ? _("what is not known was not computed, as it takes long: --sensitivity does")
-                                     : _("what is not known was not computed"));
+                                     ? _("Uncertainty was not computed, because it takes long; --sensitivity computes it")
+                                     : _("Uncertainty was not computed"));
         return;
     }
     if (r->scene->options_count == 1 && r->wooded && !isnan(m.may_lo)) {
-        ceduo_text_append_joined(text, "; ", "%s%s", SPAN(m, m.may_lo, m.may_hi), _(" by what is not known"));
+        ceduo_text_append_joined(text, " ", _("Uncertain inputs: %s."), SPAN(m, m.may_lo, m.may_hi));
     }
-    ceduo_text_char(text, '.');
-    if (ceduo_uncertainty_ranking_by(uncertainty->answer)->count > 0) {
+    if (uncertainty->answer->orders_count > 0) {
         ceduo_text_char(text, ' ');
         ceduo_uncertainty_order_words(text, uncertainty, 0); /* how sure the best option is */
     }
@@ -235,37 +233,28 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && v->n == 1 ? &v->choices[0] : NULL; /* of several a table says it */
     const struct ceduo_option *option = report->result->scene->options;
-    if (!c || c->over.years == 0 || ceduo_page_is_unassessable(report->result))
+    if (!c || c->over->years == 0 || ceduo_page_is_unassessable(report->result))
         return;
     if (c->window.kind == CEDUO_WINDOW_CONSTANT) {
         ceduo_words_window(ceduo_page_item(page, CEDUO_PAGE_POINT, _("OVER TIME")), option);
         return;
     }
-    if (c->over.simulated > 0) /* the answer says it */
+    if (c->over->simulated > 0) /* the answer says it */
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
-    ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->over.years), c->over.years);
+    ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->over->years), c->over->years);
     ceduo_text_char(text, '\t');
     ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), WRITTEN(c->worst.mean, 3),
-                      c->over.worst_year, c->over.unprotected_contact, c->over.years);
+                      c->over->worst_year, c->over->unprotected_contact, c->over->years);
 }
 
 /* ---- words and cells that several pages use ---- */
 
-void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *a)
+void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *c)
 {
-    struct ceduo_page_cell *cell = ceduo_page_cell(page);
-    cell->kind = a->reached > 0 ? CEDUO_CELL_MEAN : CEDUO_CELL_NUMBER;
-    cell->value = a->reached > 0 ? a->energy.mean * J_TO_KJ : NAN;
-    cell->half = ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ;
-}
-
-void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, enum ceduo_measure_name otherwise)
-{
-    struct ceduo_page_cell *head = ceduo_page_head(page);
     const struct ceduo_measure m = ceduo_measure_exceeding(c, NULL);
     bool kilo = fabs(c->accepted) < 1e6;
-    ceduo_text_append(&head->text, NAMED(m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD));
+    ceduo_text_append(&head->text, NAMED(m, CEDUO_SHORT_HEAD));
     ceduo_text_append(&head->written, NAMED(m, CEDUO_HEAD));
     if (!isnan(c->accepted))
         ceduo_text_format(&head->shorter, kilo ? "> %s kJ" : "> %s MJ", ROUNDED(c->accepted * (kilo ? 1e-3 : 1e-6), 3));
@@ -274,13 +263,6 @@ void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, en
 void ceduo_page_free_run(struct ceduo_page *page, double share)
 {
     ceduo_page_cell_format(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MAX));
-}
-
-void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light)
-{
-    const char *const words[] = {[CEDUO_UNKNOWN] = "?", [CEDUO_PASS] = _("pass"), [CEDUO_FAIL] = _("FAIL")};
-    const enum ceduo_role roles[] = {[CEDUO_PASS] = CEDUO_ROLE_GOOD, [CEDUO_FAIL] = CEDUO_ROLE_BAD};
-    ceduo_page_cell_role(page, roles[light], words[light]);
 }
 
 void ceduo_page_yes(struct ceduo_page *page, bool yes)

@@ -112,13 +112,12 @@ static void say_values(struct ceduo_page *page, const struct ceduo_calibration_r
         LOCAL_TEXT(name);
         ceduo_calibration_name(&name, r->inputs[i].path);
         if (!f->determined)
-            ceduo_page_para(page, CEDUO_PAGE_WARNING,
-                            _("%s is not determined by what was seen: nearly everything within its bounds fits as well."),
+            ceduo_page_para(page, CEDUO_PAGE_WARNING, _("%s is not identifiable: almost any value within the bounds fits."),
                             name.bytes);
         if (f->at_bound)
             ceduo_page_para(
                 page, CEDUO_PAGE_WARNING,
-                _("%s lies at a bound: what fits best may be beyond it. Widen its bounds, or ask what the model lacks."),
+                _("%s is at a bound: the best value may lie beyond it. Widen the bounds, or check what the model lacks."),
                 name.bytes);
     }
     for (size_t i = 0; i < r->answer->parameters_count; i++)
@@ -130,7 +129,8 @@ static void say_values(struct ceduo_page *page, const struct ceduo_calibration_r
                 continue;
             ceduo_calibration_name(&a, r->inputs[k].path);
             ceduo_calibration_name(&b, r->inputs[i].path);
-            ceduo_page_para(page, CEDUO_PAGE_ITEM, _("%s and %s are known only together, not each (correlation %.2f)."),
+            ceduo_page_para(page, CEDUO_PAGE_ITEM,
+                            _("%s and %s are correlated (%.2f): the observations do not tell them apart."),
                             ceduo_text_string(&a), ceduo_text_string(&b), c);
         }
 }
@@ -145,12 +145,11 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         LOCAL_TEXT(name);
         append_name(&name, r, p);
         if (p->p_value < CEDUO_MISFIT)
-            ceduo_page_para(
-                page, CEDUO_PAGE_WARNING,
-                o->use != CEDUO_OBSERVED_FIT ? _("The fit does not hold for what was to check it: %s.")
-                : p->inside ? _("This model can give the mean of what was seen here, but not how the values are spread: %s.")
-                            : _("This model cannot give what was seen here: %s."),
-                ceduo_text_string(&name));
+            ceduo_page_para(page, CEDUO_PAGE_WARNING,
+                            o->use != CEDUO_OBSERVED_FIT ? _("The fit does not hold for what was to check it: %s.")
+                            : p->inside ? _("The model reproduces the observed mean, but not the spread of the values: %s.")
+                                        : _("The model cannot reproduce %s."),
+                            ceduo_text_string(&name));
         if (o->use == CEDUO_OBSERVED_CHECK && o->values && !isnan(p->one_lo)) {
             LOCAL_TEXT(range); /* of those that were kept back, which lie where single rocks are predicted */
             append_range(&range, ceduo_observed_shown(file, p, p->one_lo), ceduo_observed_shown(file, p, p->one_hi));
@@ -165,7 +164,7 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
                             ceduo_text_string(&name));
     }
     if (!a->misfit)
-        ceduo_page_note(page, _("The model can give all that it was fitted to."));
+        ceduo_page_note(page, _("The model reproduces all fitted observations."));
 }
 
 /* Which values to leave as they are where the chains do not agree; of those that only their width tells apart the widest. */
@@ -178,7 +177,7 @@ static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibratio
     LOCAL_TEXT(all);
     LOCAL_TEXT(fixed);
     if (a->parameters_count == 1 || a->draws_count == 0) {
-        ceduo_page_warn(page, _("The chains do not agree yet, so the ranges are rough: fit fewer values, or observe more."));
+        ceduo_page_warn(page, _("The chains have not converged, so the ranges are rough: fit fewer values, or observe more."));
         return;
     }
     for (size_t i = 0; i < a->parameters_count; i++) {
@@ -196,11 +195,9 @@ static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibratio
         if (loose[i])
             ceduo_text_format(&fixed, "%s%s", fixed.length > 0 ? ", " : "", name.bytes);
     }
-    ceduo_page_para(
-        page, CEDUO_PAGE_WARNING,
-        _("What was seen does not tell these values apart: %s; the ranges are rough. Fit fewer, leaving as the scene "
-          "has them: %s. Or observe more."),
-        all.bytes, fixed.bytes);
+    ceduo_page_para(page, CEDUO_PAGE_WARNING,
+                    _("The observations do not determine %s; the ranges are rough. Fix %s, or observe more."), all.bytes,
+                    fixed.bytes);
 }
 
 void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *r)
@@ -210,8 +207,7 @@ void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibra
     say_values(page, r);
     if (!a->settled)
         say_unsettled(page, r);
-    ceduo_page_note(
-        page, _("A ground that is fitted on a profile holds for this profile; a hundred metres beside it may be another."));
+    ceduo_page_note(page, _("A fitted ground holds for this profile. A neighbouring profile may need another ground."));
     ceduo_page_para(page, CEDUO_PAGE_NOTE,
                     _("%llu scenes were computed with %llu rocks each; R-hat %.3f, effective size %.0f."),
                     (unsigned long long)a->evaluations, (unsigned long long)r->rocks, a->rhat, a->effective_size);
@@ -231,7 +227,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
             ceduo_text_format(title, "%zu ", s + 1);
         ceduo_text_append_escaped(title, ceduo_in_language(r->files[s].scene.title, r->files[s].scene.title_it));
     }
-    ceduo_page_para(&page, CEDUO_PAGE_SECTION, _("Fitted to what was seen"));
+    ceduo_page_para(&page, CEDUO_PAGE_SECTION, _("Fitted to observations"));
     CEDUO_PAGE_TABLE_OF(&page, fitted);
     for (size_t i = 0; i < r->answer->parameters_count; i++) {
         const struct ceduo_fitted *f = &r->answer->parameters[i];

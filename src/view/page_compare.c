@@ -1,155 +1,445 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options side by side at the last control, today and over the years; one option year by year; one energy law against the
- * other. */
+/* The one table of options: every page, pane and picture shows some of its columns. A row is an option, a year of an option, or the
+ * slope without forest. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
+#include "base/utf8.h"
 #include "page_parts.h"
+#include "plot.h"
 #include "scene/choices.h"
 #include "study/verdict.h"
+
+/* Name, head, width, flags. BAR is a bar of the column after it. */
+#define COLUMN_LIST(X)                                                                                                         \
+    X(NAME, N_("option"), 10, CEDUO_FILLS)                                                                                     \
+    X(BAR, "", 6, CEDUO_FILLS | CEDUO_DROPPED(5))                                                                              \
+    X(TODAY, NULL, -5, CEDUO_FITS)                                                                                             \
+    X(RANGE, NP_("head", "range"), -5, CEDUO_FITS | CEDUO_DROPPED(5))                                                          \
+    X(TO_FIRST, NP_("head", "to first|difference to the first option"), -8, CEDUO_FITS)                                        \
+    X(ENERGY, NP_("light", "E|test of energy"), 1, CEDUO_FITS | CEDUO_DROPPED(6))                                              \
+    X(MEAN_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, CEDUO_FITS)                                    \
+    X(ADC, N_("ADC m|ADC of the worst belt, m"), -5, CEDUO_FITS)                                                               \
+    X(CONTACT, NP_("light", "C|test of contact"), 1, CEDUO_FITS | CEDUO_DROPPED(6))                                            \
+    X(MEET_NONE, NP_("head", "free run|chance of a free run"), -7, CEDUO_FITS)                                                 \
+    X(FREE_RUN, NP_("light", "F|test of free runs"), 1, CEDUO_FITS | CEDUO_DROPPED(6))                                         \
+    X(PER_100M, N_("kJ/100 m|taken per 100 m, kJ"), -5, CEDUO_FITS)                                                            \
+    X(LEFT, NP_("head", "left kJ|energy left, kJ"), -5, CEDUO_FITS)                                                            \
+    X(MEAN, N_("mean"), -5, CEDUO_FITS | CEDUO_DROPPED(1))                                                                     \
+    X(MEAN_RANGE, NP_("head", "range"), -5, CEDUO_FITS | CEDUO_DROPPED(5))                                                     \
+    X(WORST, NP_("head", "worst|in the worst year (which)"), -5, CEDUO_FITS | CEDUO_DROPPED(4))                                \
+    X(WORST_ADC, NP_("head", "worst ADC m|ADC in the worst year, m (which)"), -5, CEDUO_FITS | CEDUO_DROPPED(4))               \
+    X(FAIL, NULL, -4, CEDUO_FITS | CEDUO_DROPPED(2))                                                                           \
+    X(FAIL_CONTACT, NP_("head", "fail C|years in which contact fails"), -4, CEDUO_FITS | CEDUO_DROPPED(2))                     \
+    X(FAIL_FREE_RUN, NP_("head", "fail F|years in which free runs fail"), -4, CEDUO_FITS | CEDUO_DROPPED(2))                   \
+    X(FELLED, NP_("head", "m3/y|felled, m3 per ha and year"), -4, CEDUO_FITS | CEDUO_DROPPED(3))                               \
+    X(ROTATION, NP_("head", "rotation|mean over a whole rotation"), -5, CEDUO_FITS | CEDUO_DROPPED(5))                         \
+    X(STANDING, NP_("head", "m3/ha|standing, m3 per ha"), -4, CEDUO_FITS)                                                      \
+    X(MARK, "", 1, CEDUO_FITS | CEDUO_DROPPED(8))                                                                              \
+    X(YEARS, "", 1, CEDUO_FITS | CEDUO_DROPPED(9))                                                                             \
+    X(LAW, NP_("head", "law of the scene"), 7, CEDUO_FITS)                                                                     \
+    X(OTHER_LAW, NP_("head", "other law"), 7, CEDUO_FITS)                                                                      \
+    X(OTHER, N_("of 1000"), -5, CEDUO_FITS)                                                                                    \
+    X(OTHER_KJ, NP_("head", "mean kJ|mean energy of those that arrive, kJ"), -5, CEDUO_FITS)                                   \
+    X(APART, N_("today"), -5, CEDUO_FITS)                                                                                      \
+    X(WEAK, NP_("head", "% weak"), -6, CEDUO_FITS)                                                                             \
+    X(MEDIUM, NP_("head", "% medium"), -6, CEDUO_FITS)                                                                         \
+    X(STRONG, NP_("head", "% strong"), -6, CEDUO_FITS)                                                                         \
+    X(RETURN_1, NULL, -17, 0)                                                                                                  \
+    X(RETURN_2, NULL, -17, 0)                                                                                                  \
+    X(RETURN_3, NULL, -17, 0)
+
+enum column {
+    END,
+#define X(NAME_, head, width, flags) NAME_,
+    COLUMN_LIST(X)
+#undef X
+        COLUMNS
+};
+
+static const struct ceduo_page_column columns[COLUMNS] = {
+#define X(NAME_, head, width, flags) [NAME_] = {head, width, NAME_ == NAME ? 2 : 1, flags},
+    COLUMN_LIST(X)
+#undef X
+};
 
 static const struct ceduo_control *last_control(const struct ceduo_result *r)
 {
     return &r->scene->controls[r->last_control];
 }
 
-/* ---- today ---- */
+#define COLUMNS_SHOWN 14
 
-/* ADC and free run with their tests. */
-static void add_contacts(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_index *s)
+/* What the tables show, by the index and through the forest. A column that is empty in all rows is left out. */
+static const enum column shown[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
+    [CEDUO_OPTIONS_SHORT] = {{NAME, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M, LEFT},
+                             {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, ADC, FELLED}},
+    [CEDUO_OPTIONS_TODAY] = {{NAME, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M, LEFT},
+                             {NAME, TODAY, ENERGY, TO_FIRST, ADC, CONTACT, MEET_NONE, FREE_RUN}},
+    [CEDUO_OPTIONS_YEARS] = {{NAME, WORST_ADC, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING},
+                             {NAME, MEAN, ROTATION, WORST, FAIL, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING}},
+    [CEDUO_OPTIONS_PANE] = {{NAME, ADC, PER_100M, WORST_ADC, FAIL_CONTACT, FELLED, CONTACT, FREE_RUN},
+                            {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, FELLED, MARK, ENERGY, CONTACT, FREE_RUN,
+                             YEARS}},
+    [CEDUO_OPTIONS_BARS] = {{NAME, BAR, ADC, CONTACT, BAR, PER_100M, BAR, LEFT},
+                            {NAME, BAR, TODAY, ENERGY, BAR, MEAN_KJ, BAR, ADC, CONTACT}},
+    [CEDUO_OPTIONS_LAWS] = {{NAME}, {NAME, LAW, TODAY, MEAN_KJ, OTHER_LAW, OTHER, OTHER_KJ}},
+    [CEDUO_OPTIONS_RATES] = {{NAME, APART, WEAK, MEDIUM, STRONG}, {NAME, APART, WEAK, MEDIUM, STRONG}},
+    [CEDUO_OPTIONS_RETURNS] = {{NAME, RETURN_1, RETURN_2, RETURN_3}, {NAME, RETURN_1, RETURN_2, RETURN_3}},
+    [CEDUO_OPTIONS_OF_YEARS] = {{NAME, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M},
+                                {NAME, TODAY, ENERGY, MEAN_KJ, ADC, CONTACT, MEET_NONE, FREE_RUN, PER_100M}}};
+
+/* ---- cells ---- */
+
+#define YEARS_MAX 26 /* columns of the years at a glance */
+#define PENDING   "\xe2\x80\xa6"
+
+/* With blocks options are judged by the years from one rock above the limit to the next. */
+static bool has_rates(const struct ceduo_report *report)
 {
-    ceduo_page_cell_format(page, "%s", BESIDE(s->worst_adc, 3, r->scene->simulation.threshold));
-    ceduo_page_verdict(page, s->contact);
-    ceduo_page_free_run(page, s->worst_free_run);
-    ceduo_page_verdict(page, s->free_run);
+    return report->result->scene->blocks_count > 0 && report->verdict && report->verdict->accepted;
 }
 
-#define OPTION   N_("option"), 23, 2, 0
-#define ADC      N_("ADC m|ADC of the worst belt, m"), -7, 0, 0
-#define CONTACT  NP_("head", "|test of contact"), 5, 1, 0
-#define FREE_RUN NP_("head", "free run|chance of a free run"), -7, 0, CEDUO_SPAN
-
-/* What arrives with more than is withstood comes first. */
-void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
+__attribute__((format(printf, 2, 3))) static const char *print(char room[CEDUO_WORDS_ROOM], const char *format, ...)
 {
-    static const struct ceduo_page_column wooded[] = {{OPTION},
-                                                      {NULL, -10, 0, 0},
-                                                      {NP_("head", "to first|difference to the first option"), -11, 0, 0},
-                                                      {NP_("head", "energy|test of energy"), 6, 2, 0},
-                                                      {ADC},
-                                                      {CONTACT},
-                                                      {FREE_RUN},
-                                                      {NP_("head", "|test of free runs"), 0, 1, 0}};
-    static const struct ceduo_page_column by_index[] = {{OPTION},
-                                                        {ADC},
-                                                        {CONTACT},
-                                                        {FREE_RUN},
-                                                        {NP_("head", "|test of free runs"), 5, 1, 0},
-                                                        {N_("kJ/100 m|taken per 100 m, kJ"), -10, 0, 0},
-                                                        {NP_("head", "left kJ|energy left, kJ"), -10, 0, 0}};
-    if (r->wooded) {
-        CEDUO_PAGE_TABLE_OF(page, wooded);
-        ceduo_page_limit(page, last_control(r), CEDUO_SHORT_HEAD);
-    } else {
-        CEDUO_PAGE_TABLE_OF(page, by_index);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(room, CEDUO_WORDS_ROOM, format, args);
+    va_end(args);
+    return room;
+}
+
+/* The years at a glance: a block for each year, or for the worst of several; as high as what gets through. */
+static const char *glance_of(const struct ceduo_subject *s, char room[CEDUO_WORDS_ROOM])
+{
+    const struct ceduo_years *years = s->report->ahead ? s->report->ahead[s->option] : NULL;
+    int n = years ? (int)years->count : 0, blocks = n < YEARS_MAX ? n : YEARS_MAX;
+    size_t length = 0;
+    for (int x = 0; x < blocks; x++) {
+        double max = 0;
+        for (int k = x * n / blocks; k < (x + 1) * n / blocks; k++)
+            if (years->years[k].wooded.rocks > 0)
+                max = fmax(max, ceduo_measure_exceeding(s->place, &years->years[k].wooded.arrivals[s->control]).value);
+        uint32_t eighths = (uint32_t)fmin(8, ceil(max * 8 / 1000)); /* U+2581 … U+2588 */
+        length += ceduo_utf8_encode(eighths > 0 ? 0x2580 + eighths : ' ', room + length);
     }
-    for (size_t i = 0; i < r->scene->options_count; i++) {
-        const struct ceduo_index *s = ceduo_result_last_index(r, i);
-        ceduo_page_cell_format(page, "%s", r->scene->options[i].name);
-        if (r->wooded) {
-            const struct ceduo_mean_share share = ceduo_share_at(ceduo_result_wooded(r, i, r->last_control));
-            struct ceduo_estimate to_first = ceduo_share_to_first(r, i);
-            ceduo_page_cell_format(page, "%s", WITH_ERROR(ceduo_share(share), " "));
-            if (ceduo_pairs_are_equal(&to_first))
-                ceduo_page_cell_format(page, "< %.0f", ceil(to_first.hi * 1000));
-            else if (i > 0 && to_first.mean == 0 && to_first.se == 0)
-                ceduo_page_cell_format(page, "%s", _("the same"));
-            else if (i == 0 || isnan(to_first.mean))
-                ceduo_page_cell_format(page, "-");
-            else
-                ceduo_page_cell_format(page, isnan(to_first.se) ? "%+.0f" : "%+.0f \xc2\xb1%.0f", to_first.mean * 1000,
-                                       ceil(CEDUO_Z95 * to_first.se * 1000));
-            ceduo_page_verdict(page, ceduo_result_last_index(r, i)->energy);
-        }
-        add_contacts(page, r, s);
-        if (r->wooded)
-            continue;
-        ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
-        if (s->exhausted)
-            ceduo_page_cell_format(page, "%s", _("used up"));
+    room[length] = '\0';
+    return room;
+}
+
+static const char *to_first(const struct ceduo_subject *s, char room[CEDUO_WORDS_ROOM])
+{
+    const struct ceduo_estimate e = ceduo_share_to_first(s->report->result, s->option);
+    if (ceduo_pairs_are_equal(&e))
+        return print(room, "< %.0f", ceil(e.hi * 1000));
+    if (s->option == 0 || isnan(e.mean))
+        return "-";
+    if (e.mean == 0 && e.se == 0)
+        return _("the same");
+    return print(room, isnan(e.se) ? "%+.0f" : "%+.0f\xc2\xb1%.0f", e.mean * 1000, ceil(CEDUO_Z95 * e.se * 1000));
+}
+
+/* "best" if an option is clearly better than all others over the years, "worst" if it is clearly worse than all. */
+static const char *mark_of(const struct ceduo_verdict *v, size_t i)
+{
+    bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;
+    for (size_t k = 0; k < v->n; k++)
+        worst &=
+            k == i || v->choices[k].mean.mean + v->choices[k].mean.half < v->choices[i].mean.mean - v->choices[i].mean.half;
+    return known && i == v->rotation.best && v->rotation.rivals == 0 ? _("best") : worst ? _("worst") : "";
+}
+
+/* The law of the scene, or that its stands have several. */
+static const char *law_of(const struct ceduo_option *option)
+{
+    const char *law = NULL;
+    for (size_t i = 0; i < option->belts_count; i++) {
+        const struct ceduo_stand *stand = &option->belts[i].stand;
+        const char *here = ceduo_stand_is_bare(stand) ? law : ceduo_words_law(ceduo_energy_words.names[stand->energy]);
+        if (law && law != here)
+            return _("several");
+        law = here;
+    }
+    return law ? law : "-";
+}
+
+/* The figure of a column that a bar may show; NaN: not known. */
+static double value_of(enum column column, const struct ceduo_subject *s)
+{
+    const struct ceduo_index none = {.worst_adc = NAN, .per_100m = NAN}, *index = s->index ? s->index : &none;
+    const struct ceduo_yield *yield = s->choice ? &s->choice->yield : NULL;
+    const double values[COLUMNS] = {[TODAY] = s->today.value,
+                                    [ADC] = index->worst_adc,
+                                    [MEAN_KJ] = ceduo_measured(CEDUO_MEAN_KJ, s->wooded).value,
+                                    [OTHER_KJ] = ceduo_measured(CEDUO_MEAN_KJ, s->other ? &s->other->arrivals : NULL).value,
+                                    [PER_100M] = index->per_100m * J_TO_KJ,
+                                    [LEFT] =
+                                        s->index ? index->residual * J_TO_KJ : ceduo_measured(CEDUO_MEAN_KJ, s->bare).value,
+                                    [FELLED] = yield ? yield->cut_per_year : NAN,
+                                    [STANDING] = yield ? yield->standing : NAN};
+    return values[column];
+}
+
+static enum ceduo_light light_of(enum column column, const struct ceduo_subject *s)
+{
+    bool contact = column == ADC || column == CONTACT, energy = column == TODAY || column == ENERGY;
+    return !s->index            ? CEDUO_UNKNOWN
+           : contact            ? s->index->contact
+           : energy             ? s->index->energy
+           : column == FREE_RUN ? s->index->free_run
+                                : CEDUO_UNKNOWN;
+}
+
+/* A share with its error, or in rates the years from one rock to the next. */
+static const char *share_of(struct ceduo_measure share, struct ceduo_estimate rate, bool rates, const char *unknown,
+                            char room[CEDUO_WORDS_ROOM])
+{
+    if (isnan(rates ? rate.mean : share.value))
+        return unknown;
+    return rates ? ceduo_words_years(rate, room) : ceduo_measure_error(share, "", room);
+}
+
+static const char *cell_of(enum column column, const struct ceduo_subject *s, char room[CEDUO_WORDS_ROOM])
+{
+    const struct ceduo_choice *c = s->choice && s->choice->over->years > 0 ? s->choice : NULL;
+    const struct ceduo_hazard *h = ceduo_hazard_at(s->wooded);
+    const char *unknown = s->report->busy && !c && s->index ? PENDING : "-";
+    bool rates = has_rates(s->report), judged = c && !c->over->nothing;
+    double left = h && column >= WEAK && column <= STRONG ? h->intensity[column - WEAK].left : NAN;
+    switch (column) {
+    case TODAY:
+        return rates && s->wooded ? ceduo_words_interval_years(ceduo_feared(s->wooded), room)
+                                  : share_of(s->today, CEDUO_NO_ESTIMATE, false, unknown, room);
+    case APART:
+        return share_of(s->today, ceduo_feared(s->wooded), true, unknown, room);
+    case RANGE:
+        return isnan(s->today.may_lo) || !isnan(s->mean.may_lo) || rates ? "" : ceduo_measure_plausible_range(s->today, room);
+    case MEAN:
+        return share_of(s->mean, c ? s->outcome.rate : CEDUO_NO_ESTIMATE, rates, unknown, room);
+    case MEAN_RANGE:
+        return isnan(s->mean.may_lo) || rates ? "" : ceduo_measure_plausible_range(s->mean, room);
+    case WORST:
+        return !c || c->over->simulated == 0
+                   ? unknown
+                   : print(room, "%s (%u)",
+                           rates ? WRITTEN(1 / (c->worst.mean * ceduo_hazard_at(s->bare)->per_year), 2)
+                                 : WRITTEN(1000 * c->worst.mean, 0),
+                           c->over->worst_year);
+    case ROTATION:
+        return c ? ceduo_measure_error(ceduo_share(c->rotation), "", room) : "-";
+    case WORST_ADC:
+        return c ? print(room, "%s (%u)", WRITTEN(c->worst.mean, 3), c->over->worst_year) : unknown;
+    case FAIL:
+        if (rates)
+            return ceduo_words_decision(s->outcome.answer, room);
+        return c && c->energy_known ? print(room, "%zu/%zu", c->over->unprotected_energy, c->over->years) : unknown;
+    case FAIL_CONTACT:
+        return judged ? print(room, "%zu/%zu", c->over->unprotected_contact, c->over->years) : unknown;
+    case FAIL_FREE_RUN:
+        return judged ? print(room, "%zu/%zu", c->over->unprotected_free_run, c->over->years) : unknown;
+    case ADC:
+        return ceduo_words_against_limit(s->index->worst_adc, 3, s->report->result->scene->simulation.threshold, room);
+    case MEET_NONE:
+        return print(room, "%s %%", PERCENT(s->index->worst_free_run, CEDUO_FREE_RUN_MAX));
+    case ENERGY:
+    case CONTACT:
+    case FREE_RUN:
+        return ceduo_plot_light_mark(light_of(column, s));
+    case TO_FIRST:
+        return to_first(s, room);
+    case MARK:
+        return s->choice ? mark_of(s->report->verdict, s->option) : "";
+    case YEARS:
+        return glance_of(s, room);
+    case LAW:
+        return law_of(&s->report->result->scene->options[s->option]);
+    case OTHER_LAW:
+        return s->other ? ceduo_words_law(ceduo_energy_words.names[s->other->model]) : "-";
+    case OTHER:
+        return s->other ? ceduo_measure_value(ceduo_measure_exceeding(s->place, &s->other->arrivals), room) : "-";
+    case WEAK:
+    case MEDIUM:
+    case STRONG:
+        return isnan(left) ? _("none") : ceduo_words_shown(s->index ? 100 * left : 100, s->index ? 2 : 3, room);
+    case LEFT:
+        if (s->index && s->index->exhausted)
+            return _("used up");
+        return ceduo_words_shown(value_of(column, s), 3, room);
+    default:
+        return ceduo_words_shown(value_of(column, s), column == FELLED ? 2 : 3, room);
+    }
+}
+
+/* ---- bars ---- */
+
+struct scale {
+    double lo, hi, limit; /* lo: 0: not logarithmic; limit: NaN: none */
+};
+
+static struct scale scale_of(enum column column, const struct ceduo_subject *s)
+{
+    const struct ceduo_scene *scene = s->report->result->scene;
+    double threshold = scene->simulation.threshold, accepted = ceduo_words_accepted(s->place);
+    if (column == ADC)
+        return (struct scale){threshold / 10, threshold * 2, threshold};
+    if (column == TODAY)
+        return (struct scale){0, 1000, isnan(accepted) ? NAN : 1000 * ceduo_exceed_limit(scene, s->place)};
+    return (struct scale){0, 0, column == PER_100M ? NAN : accepted};
+}
+
+static void widen(struct scale *scale, double value)
+{
+    bool logarithmic = scale->lo > 0;
+    if (logarithmic && isfinite(value) && value > 0)
+        scale->lo = fmin(scale->lo, value / 1.5);
+    if (!logarithmic || isfinite(value))
+        scale->hi = fmax(scale->hi, logarithmic ? value * 1.1 : value);
+}
+
+static void add_bar(struct ceduo_page *page, enum column column, const struct ceduo_subject *s, double limit)
+{
+    double value = value_of(column, s);
+    enum ceduo_light light = light_of(column, s);
+    if (column == LEFT && s->index && !isnan(limit))
+        light = value <= limit ? CEDUO_PASS : CEDUO_FAIL;
+    ceduo_page_bar(page, value,
+                   !s->index                ? CEDUO_ROLE_BARE
+                   : light == CEDUO_UNKNOWN ? CEDUO_ROLE_WOOD
+                                            : ceduo_plot_light_role(light))
+        ->limit = limit;
+}
+
+/* ---- tables ---- */
+
+/* A row; `name` of its option, its year, or of what arrives without forest. */
+static void add_row(struct ceduo_page *page, const enum column *set, const struct ceduo_subject *s, const struct scale *scales,
+                    enum ceduo_role role, const char *name)
+{
+    for (size_t i = 0; set[i]; i++) {
+        enum column column = set[i];
+        char room[CEDUO_WORDS_ROOM] = "";
+        if (column == NAME)
+            ceduo_page_cell_role(page, role, name);
+        else if (column == BAR)
+            add_bar(page, set[i + 1], s, scales[i].limit);
+        else if (column >= RETURN_1)
+            ceduo_page_return(page, ceduo_hazard_at(s->wooded), (size_t)(1 + column - RETURN_1));
+        else if (!s->index && !(column == TODAY || column == MEAN_KJ || column == LEFT || column >= APART))
+            ceduo_page_cell_format(page, "%s", "");
         else
-            ceduo_page_number(page, s->residual * J_TO_KJ, 3);
+            ceduo_page_cell_role(page,
+                                 column == ENERGY || column == CONTACT || column == FREE_RUN
+                                     ? ceduo_plot_light_role(light_of(column, s))
+                                 : column == MARK  ? CEDUO_ROLE_CURSOR
+                                 : column == YEARS ? CEDUO_ROLE_MEAN
+                                                   : CEDUO_ROLE_BLANK,
+                                 cell_of(column, s, room));
     }
 }
 
-/* ---- over the years ---- */
-
-void ceduo_page_worst(struct ceduo_page *page, const struct ceduo_choice *c)
+static void begin(struct ceduo_page *page, const struct ceduo_report *report, size_t control, const enum column *set)
 {
-    ceduo_page_cell_format(page, c->over.years > 0 ? "%s (%u)" : "-",
-                           c->over.simulated > 0 ? WRITTEN(1000 * c->worst.mean, 0) : WRITTEN(c->worst.mean, 3),
-                           c->over.worst_year);
+    struct ceduo_page_column chosen[COLUMNS_SHOWN] = {0};
+    const struct ceduo_control *c = &report->result->scene->controls[control];
+    size_t n = 0;
+    bool ahead = false;
+    for (; set[n]; n++) {
+        chosen[n] = columns[set[n]];
+        ahead |= set[n] == MEAN;
+    }
+    ceduo_page_table(page, chosen, n);
+    for (size_t i = 0; i < n; i++) {
+        struct ceduo_page_cell *head = &page->last->cells[i];
+        if (set[i] == TODAY && ahead)
+            ceduo_text_append(&head->text, _("today"));
+        else if (set[i] == TODAY)
+            ceduo_page_limit(head, c);
+        else if (set[i] == FAIL)
+            ceduo_text_append(&head->text, has_rates(report) ? _("accepted") : _("fail"));
+        else if (set[i] >= RETURN_1)
+            ceduo_text_format(&head->text, _("%u years"), ceduo_return_years[1 + set[i] - RETURN_1]);
+    }
 }
 
-void ceduo_page_fails(struct ceduo_page *page, const struct ceduo_choice *c, size_t fails, bool known)
+void ceduo_page_options(struct ceduo_page *page, const struct ceduo_report *report, enum ceduo_options kind, size_t control,
+                        size_t cursor, size_t first, size_t rows)
 {
-    ceduo_page_cell_format(page, known && c->over.years > 0 ? "%zu/%zu" : "-", fails, c->over.years);
+    const struct ceduo_result *r = report->result;
+    const enum column *set = shown[kind][r->wooded];
+    struct scale scales[COLUMNS_SHOWN];
+    struct ceduo_subject bare = ceduo_subject_find(report, SIZE_MAX, control);
+    size_t end = rows < r->scene->options_count - first ? first + rows : r->scene->options_count;
+    begin(page, report, control, set);
+    for (size_t k = 0; set[k]; k++)
+        scales[k] = scale_of(set[k + 1], &bare);
+    for (size_t i = 0; i <= r->scene->options_count; i++) {
+        struct ceduo_subject s = i < r->scene->options_count ? ceduo_subject_find(report, i, control) : bare;
+        for (size_t k = 0; set[k]; k++)
+            widen(&scales[k], value_of(set[k + 1], &s));
+        if (s.index && i >= first && i < end && (kind != CEDUO_OPTIONS_LAWS || s.wooded))
+            add_row(page, set, &s, scales, i == cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
+    }
+    if (kind != CEDUO_OPTIONS_TODAY && kind != CEDUO_OPTIONS_YEARS && kind != CEDUO_OPTIONS_PANE && kind != CEDUO_OPTIONS_LAWS)
+        add_row(page, set, &bare, scales, CEDUO_ROLE_TEXT, _("without forest"));
+    for (size_t k = 0; set[k]; k++)
+        if (set[k] == BAR) { /* a limit stands above its bars */
+            struct scale *scale = &scales[k];
+            if (scale->limit <= 2 * scale->hi)
+                scale->hi = fmax(scale->hi, scale->limit);
+            if (!isnan(scale->limit))
+                ceduo_text_format(&page->last->cells[k].text, "\xe2\x94\x82 %s", ROUNDED(scale->limit, 6));
+            ceduo_page_scale(page, k, scale->lo, scale->hi);
+        }
+    ceduo_page_trim(page);
 }
 
-static void add_choice(struct ceduo_page *page, const char *name, const struct ceduo_choice *c)
+const char *ceduo_plot_compare(struct ceduo_drawing *d)
 {
-    ceduo_page_cell_format(page, "%s", name);
-    if (c->over.simulated > 0)
-        ceduo_page_cell_format(page, "%s", WITH_ERROR(ceduo_share(c->mean), " "));
-    ceduo_page_worst(page, c);
-    ceduo_page_fails(page, c, c->over.unprotected_contact, !c->over.nothing);
-    ceduo_page_fails(page, c, c->over.unprotected_free_run, !c->over.nothing);
-    if (c->over.simulated > 0)
-        ceduo_page_fails(page, c, c->over.unprotected_energy, c->energy_known);
-    ceduo_page_number(page, c->yield.cut_per_year, 2);
-    ceduo_page_number(page, c->yield.standing, 3);
+    const struct ceduo_scene *scene = d->scene;
+    struct ceduo_result *result;
+    size_t room = d->height > 4 ? (size_t)d->height - 3 : 1, n = scene->options_count;
+    if (!d->control || !d->bare)
+        return !d->control ? _("no control") : _("not computed yet");
+    const struct ceduo_simulated **wooded = ceduo_check_memory(calloc(n, sizeof *wooded));
+    for (size_t i = 0; i < n; i++) {
+        const struct ceduo_run_snapshot *run = ceduo_snapshot_find(d->picture->snapshot, scene, i);
+        wooded[i] = run ? &run->flown : NULL;
+    }
+    if (ceduo_result_assess(scene, &d->bare->flown, wooded, NULL, NULL, &result) != CEDUO_OK)
+        result = NULL;
+    ceduo_check_memory(result);
+    const struct ceduo_report report = {.result = result};
+    room = n <= room ? n : room - 1;
+    ceduo_page_options(d->page, &report, CEDUO_OPTIONS_BARS, d->picture->control, d->picture->option, 0, room);
+    if (ceduo_reached(d->bare_arrivals) == 0)
+        ceduo_page_para_role(d->page, CEDUO_ROLE_DIM, "%s", _("no rock arrives"));
+    if (room < n)
+        ceduo_page_para(d->page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(n - room));
+    ceduo_result_free(result);
+    free(wooded);
+    return NULL;
 }
 
-static void add_rotations(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
+/* What the shares of a table are of, at the last control; with `years` also which years. */
+void ceduo_page_shares(struct ceduo_page *page, const struct ceduo_report *report, bool years)
 {
-    static const struct ceduo_page_column simulated[] = {{N_("option"), 22, 2, 0},
-                                                         {NULL, -10, 0, 0},
-                                                         {NP_("head", "worst year|in the worst year (which)"), -11, 0, 0},
-                                                         {NP_("head", "contact|years in which contact fails"), -8, 0, 0},
-                                                         {NP_("head", "free run|years in which free runs fail"), -9, 0, 0},
-                                                         {NP_("head", "energy|years in which energy fails"), -7, 0, 0},
-                                                         {NP_("head", "m3/y|felled, m3 per ha and year"), -5, 0, 0},
-                                                         {NP_("head", "m3|standing, m3 per ha"), -6, 0, 0}};
-    static const struct ceduo_page_column by_index[] = {
-        {OPTION},
-        {NP_("head", "ADC m, worst|ADC in the worst year, m (which)"), -14, 0, 0},
-        {NP_("head", "contact|years in which contact fails"), -8, 0, 0},
-        {NP_("head", "free run|years in which free runs fail"), -9, 0, 0},
-        {NP_("head", "m3/y|felled, m3 per ha and year"), -6, 0, 0},
-        {NP_("head", "m3|standing, m3 per ha"), -7, 0, 0}};
-    char span[CEDUO_WORDS_ROOM];
-    snprintf(span, sizeof span, _("years %u to %u"), v->choices[0].window.first, v->choices[0].window.last);
-    if (v->wooded)
-        ceduo_page_para(
-            page, CEDUO_PAGE_CAPTION,
-            _("Over %s: of 1000 released, in the mean and in the worst of these years, counted from today, with %llu "
-              "rocks in each; years in which a test fails; wood felled per hectare and year, and standing:"),
-            span, (unsigned long long)v->choices[0].rocks);
+    const struct ceduo_control *c = last_control(report->result);
+    const struct ceduo_choice *ahead = years ? ceduo_report_ahead(report, 0) : NULL;
+    struct text *text = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
+    const char *name = NAMED(ceduo_measure_exceeding(c, NULL), CEDUO_SHORT_HEAD), *place = SHORTEST(c->x_given);
+    if (has_rates(report))
+        ceduo_text_format(text, _("Years between two rocks %s at %s m (accepted: %s)"), name, place,
+                          SHORTEST(ceduo_accepted_return(c)));
+    else if (report->result->wooded)
+        ceduo_text_format(text, _("Of 1000 rocks: %s at %s m"), name, place);
     else
-        ceduo_page_para(
-            page, CEDUO_PAGE_CAPTION,
-            _("Over %s: the worst year, counted from today; years in which a test fails; wood felled per hectare and "
-              "year, and standing:"),
-            span);
-    if (v->choices[0].over.simulated > 0) {
-        CEDUO_PAGE_TABLE_OF(page, simulated);
-        ceduo_page_limit(page, last_control(r), CEDUO_SHORT_HEAD);
-    } else {
-        CEDUO_PAGE_TABLE_OF(page, by_index);
-    }
-    for (size_t i = 0; i < v->n; i++)
-        add_choice(page, r->scene->options[i].name, &v->choices[i]);
+        ceduo_text_format(text, _("At %s m"), place);
+    if (ahead)
+        ceduo_text_append_joined(text, "; ", _("years %u to %u"), ahead->window.first, ahead->window.last);
 }
 
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report)
@@ -157,8 +447,8 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     const struct ceduo_result *r = report->result;
     const struct ceduo_verdict *v = report->verdict;
     ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Side by side, up to %s m"), SHORTEST(last_control(r)->x_given));
-    ceduo_page_para(page, CEDUO_PAGE_CAPTION, _("Today:"));
-    ceduo_page_today(page, r);
+    ceduo_page_shares(page, report, false);
+    ceduo_page_options(page, report, CEDUO_OPTIONS_TODAY, r->last_control, SIZE_MAX, 0, SIZE_MAX);
     size_t n = r->scene->options_count, passes[3] = {0};
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
@@ -176,9 +466,12 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (!v)
         return;
     bool known = false;
-    if (ceduo_report_ahead(report, 0))
-        add_rotations(page, r, v);
-    for (size_t i = 0; v->choices[0].over.years > 0 && i < v->n; i++) { /* what a yield leaves out */
+    if (ceduo_report_ahead(report, 0)) {
+        ceduo_page_para(page, CEDUO_PAGE_CAPTION, _("Over years %u to %u, counted from today:"), v->choices[0].window.first,
+                        v->choices[0].window.last);
+        ceduo_page_options(page, report, CEDUO_OPTIONS_YEARS, r->last_control, SIZE_MAX, 0, SIZE_MAX);
+    }
+    for (size_t i = 0; v->choices[0].over->years > 0 && i < v->n; i++) { /* what a yield leaves out */
         known |= !isnan(v->choices[i].yield.cut_per_year);
         if (v->choices[i].yield.space > 1)
             ceduo_page_para(
@@ -186,18 +479,11 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
                 _("'%s' keeps more standards than the ground bears (%.0f %% of the growing space): its yield is not computed."),
                 r->scene->options[i].name, 100 * v->choices[i].yield.space);
     }
-    for (size_t i = 0; i < v->n; i++) {
-        struct ceduo_window w = ceduo_window_compute(&r->scene->options[i]);
-        if (w.kind != CEDUO_WINDOW_ROTATION || isnan(v->choices[i].rotation.mean))
-            continue;
-        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("'%s', mean over a whole rotation, years %u to %u: %s of 1000."),
-                        r->scene->options[i].name, w.first, w.last, WITH_ERROR(ceduo_share(v->choices[i].rotation), " "));
-    }
     if (known)
         ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
                                 "quality of the wood are not modelled."));
     ceduo_words_rank_reversals(r, v, ceduo_page_note, page); /* which is best stands at the head of the page */
-    if (v->choices[0].over.years > 0)
+    if (v->choices[0].over->years > 0)
         ceduo_words_windows(r->scene, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
         ceduo_page_note(page, _(ceduo_words_unjudged));
@@ -220,31 +506,19 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
 
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option)
 {
-    static const struct ceduo_page_column columns[] = {{N_("year"), 9, 4, 0},
-                                                       {ADC},
-                                                       {CONTACT},
-                                                       {FREE_RUN},
-                                                       {NP_("head", "|test of free runs"), 5, 1, 0},
-                                                       {N_("kJ/100 m|taken per 100 m, kJ"), -9, 0, 0},
-                                                       {NULL, -16, 0, 0},
-                                                       {NP_("head", "arr. kJ|mean of those that arrive, kJ"), -8, 0, 0},
-                                                       {NP_("head", "energy|test of energy"), 0, 2, 0}};
     const struct ceduo_result *r = report->result;
     const struct ceduo_years *years = report->years[option];
+    const enum column *set = shown[CEDUO_OPTIONS_OF_YEARS][r->wooded];
     ceduo_page_para(page, CEDUO_PAGE_CAPTION, _("Year by year, up to %s m:"), SHORTEST(last_control(r)->x_given));
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_page_limit(page, last_control(r), CEDUO_HEAD);
-    for (size_t i = 0; i < years->count; i++) {
-        const struct ceduo_year *y = &years->years[i];
-        const struct ceduo_index *s = &y->controls[r->last_control];
-        const struct ceduo_arrivals *a = y->wooded.rocks > 0 ? &y->wooded.arrivals[r->last_control] : NULL;
-        ceduo_page_cell_format(page, "%4u %s", y->year, y->cut ? P_("head", "cut") : "");
-        add_contacts(page, r, s);
-        ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
-        ceduo_page_cell_format(page, "%s", INTERVAL(ceduo_measure_exceeding(last_control(r), a)));
-        ceduo_page_number(page, a ? a->energy.mean * J_TO_KJ : NAN, 3);
-        ceduo_page_verdict(page, s->energy);
+    begin(page, report, r->last_control, set);
+    ceduo_text_cut(&page->last->cells[0].text, 0);
+    ceduo_text_append(&page->last->cells[0].text, _("year"));
+    for (const struct ceduo_year *y = years->years; y < years->years + years->count; y++) {
+        char name[CEDUO_WORDS_ROOM];
+        const struct ceduo_subject s = ceduo_subject_in(report, option, y);
+        add_row(page, set, &s, NULL, CEDUO_ROLE_TEXT, print(name, "%4u %s", y->year, y->cut ? P_("head", "cut") : ""));
     }
+    ceduo_page_trim(page);
     ceduo_page_years_words(page, r, years);
 }
 
@@ -252,9 +526,9 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
 
 void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    static const struct ceduo_page_column columns[1 + BESIDE_MAX] = {{N_("year"), 15, 2, 0}, {"", -7, 0, 0}, {"", -7, 0, 0},
-                                                                     {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0},
-                                                                     {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0}};
+    static const struct ceduo_page_column beside[1 + BESIDE_MAX] = {{N_("year"), 15, 2, 0}, {"", -7, 0, 0}, {"", -7, 0, 0},
+                                                                    {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0},
+                                                                    {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0}};
     const struct ceduo_result *r = report->result;
     const struct ceduo_control *control = last_control(r);
     size_t n = r->scene->options_count;
@@ -262,7 +536,7 @@ void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report 
                     NAMED(ceduo_measure_exceeding(control, NULL), CEDUO_HEAD), SHORTEST(control->x_given));
     for (size_t from = 0; from < n; from += BESIDE_MAX) {
         size_t to = from + BESIDE_MAX < n ? from + BESIDE_MAX : n;
-        ceduo_page_table(page, columns, 1 + to - from);
+        ceduo_page_table(page, beside, 1 + to - from);
         for (size_t i = from; i < to; i++)
             ceduo_text_format(&page->last->cells[1 + i - from].text, "%zu", i + 1);
         for (size_t k = 0; k < report->years[0]->count; k++) {
@@ -290,61 +564,19 @@ void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report 
 
 /* ---- one energy law of stems against the other ---- */
 
-/* NULL: not known, or of no stems. */
-static const struct ceduo_alternative_energy *other_of(const struct ceduo_result *r, size_t option)
+void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    const struct ceduo_alternative_energy *other = &r->options[option].others[r->last_control];
-    return other->known && other->stems ? other : NULL;
-}
-
-/* The law of the scene, or that its stands have several. */
-static const char *law_of(const struct ceduo_option *option)
-{
-    const char *law = NULL;
-    for (size_t i = 0; i < option->belts_count; i++) {
-        const struct ceduo_stand *stand = &option->belts[i].stand;
-        const char *here = ceduo_stand_is_bare(stand) ? law : ceduo_words_law(ceduo_energy_words.names[stand->energy]);
-        if (law && law != here)
-            return _("several");
-        law = here;
-    }
-    return law ? law : "-";
-}
-
-void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
-{
-    static const struct ceduo_page_column columns[] = {{OPTION},
-                                                       {NP_("head", "law of the scene"), 16, 1, 0},
-                                                       {N_("of 1000"), -8, 0, 0},
-                                                       {NP_("head", "mean kJ|mean energy, kJ"), -8, 0, 0},
-                                                       {NP_("head", "other law"), 11, 2, 0},
-                                                       {N_("of 1000"), -8, 0, 0},
-                                                       {NP_("head", "mean kJ|mean energy, kJ"), -8, 0, 0}};
+    const struct ceduo_result *r = report->result;
     bool any = false; /* in the terminal program the figures by the other law may be there before those of the scene's own */
     for (size_t i = 0; r->wooded && i < r->scene->options_count; i++)
-        any |= other_of(r, i) && ceduo_result_wooded(r, i, r->last_control);
+        any |= ceduo_subject_find(report, i, r->last_control).other && ceduo_result_wooded(r, i, r->last_control);
     if (!any)
         return;
     ceduo_page_para(page, CEDUO_PAGE_SECTION, _("One energy law against the other"));
-    ceduo_page_note(page,
-                    _("Two published laws disagree about what thin stems take from a rock (Brauner et al. 2005; Dorren et "
-                      "al. 2006), and nobody knows yet which of them holds there. What differs here, more rocks cannot "
-                      "decide."));
+    ceduo_page_note(page, _("Two published laws disagree on the energy that thin stems absorb (Brauner et al. 2005; Dorren et "
+                            "al. 2006). Neither has been validated for them. More rocks do not decide between them."));
     ceduo_page_para(page, CEDUO_PAGE_CAPTION,
                     _("The same rocks at %s m: how many of 1000 %s, and the mean energy of those that arrive:"),
                     SHORTEST(last_control(r)->x_given), NAMED(ceduo_measure_exceeding(last_control(r), NULL), CEDUO_PHRASE));
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    for (size_t i = 0; i < r->scene->options_count; i++) {
-        const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);
-        const struct ceduo_alternative_energy *other = other_of(r, i);
-        if (!a)
-            continue;
-        ceduo_page_cell_format(page, "%s", r->scene->options[i].name);
-        ceduo_page_cell_format(page, "%s", law_of(&r->scene->options[i]));
-        ceduo_page_cell_format(page, "%.0f", 1000 * ceduo_share_at(a).mean);
-        ceduo_page_number(page, a->energy.mean * J_TO_KJ, 3);
-        ceduo_page_cell_format(page, "%s", other ? ceduo_words_law(ceduo_energy_words.names[other->model]) : "-");
-        ceduo_page_cell_format(page, "%s", other ? WRITTEN(1000 * ceduo_judged_share(&other->arrivals).mean, 0) : "-");
-        ceduo_page_number(page, other ? other->arrivals.energy.mean * J_TO_KJ : NAN, 3);
-    }
+    ceduo_page_options(page, report, CEDUO_OPTIONS_LAWS, r->last_control, SIZE_MAX, 0, SIZE_MAX);
 }

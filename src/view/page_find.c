@@ -34,21 +34,19 @@ void ceduo_find_reliable(struct text *text, const struct ceduo_search *s, const 
     char room[CEDUO_NUMBER_ROOM], from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
     double wanted = sure->sure * 100, reached = sure->share.value * 100, error = 196 * sure->share.se;
     if (sure->inputs == 0)
-        ceduo_text_append(text, _("nothing else is in doubt: that holds as far as the scene does"));
+        ceduo_text_append(text, _("no other input is uncertain: the result holds if the scene does"));
     else if (!f->found)
-        ceduo_text_format(text, _("no value is sure in %g %% of what may be true; nearest: %s, in %.0f %% (\xc2\xb1%.0f)"),
-                          wanted, ceduo_shown_number(field, f->nearest, room), reached, error);
+        ceduo_text_format(text, _("no value holds in %g %% of plausible cases; nearest: %s, in %.0f %% (\xc2\xb1%.0f)"), wanted,
+                          ceduo_shown_number(field, f->nearest, room), reached, error);
     else if (f->whole_range)
-        ceduo_text_format(text, _("every value of the range is sure in %g %% of what may be true"), wanted);
+        ceduo_text_format(text, _("every value of the range holds in %g %% of plausible cases"), wanted);
     else
-        ceduo_text_format(
-            text,
-            isnan(sure->lo)
-                ? _("to be sure in %g %% of what may be true: %s (reaches it in %.0f %%, \xc2\xb1%.0f)")
-                : _("to be sure in %g %% of what may be true: %s (reaches it in %.0f %%, \xc2\xb1%.0f; by that error "
-                    "the value is %s to %s)"),
-            wanted, ceduo_shown_number(field, shown(s, f), room), reached, error, ceduo_shown_number(field, sure->lo, from),
-            ceduo_shown_number(field, sure->hi, to));
+        ceduo_text_format(text,
+                          isnan(sure->lo) ? _("in %g %% of plausible cases: %s (reaches the goal in %.0f %%, \xc2\xb1%.0f)")
+                                          : _("in %g %% of plausible cases: %s (reaches the goal in %.0f %%, \xc2\xb1%.0f; "
+                                              "with this error the value is %s to %s)"),
+                          wanted, ceduo_shown_number(field, shown(s, f), room), reached, error,
+                          ceduo_shown_number(field, sure->lo, from), ceduo_shown_number(field, sure->hi, to));
 }
 
 void ceduo_find_words(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f, const struct field *field,

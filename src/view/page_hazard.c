@@ -9,18 +9,15 @@
 #include "page_parts.h"
 #include "plot.h"
 
-/* What arrives at a control without forest (item 0) and through the forest of each option. NULL: not known. */
+/* Without forest (item 0) and through the forest of each option. NULL: not known. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_result *r, size_t item, size_t control)
 {
-    const struct ceduo_arrivals *a = item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control);
-    return a ? &a->hazard : NULL;
+    return ceduo_hazard_at(item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control));
 }
 
 static const char *name_of(const struct ceduo_result *r, size_t item)
 {
-    return item == 0                      ? _("without forest")
-           : r->scene->options_count == 1 ? _("through the wood")
-                                          : r->scene->options[item - 1].name;
+    return item == 0 ? _("without forest") : r->scene->options_count == 1 ? _("with forest") : r->scene->options[item - 1].name;
 }
 
 /* ---- in words ---- */
@@ -43,69 +40,28 @@ const char *ceduo_words_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_
     return room;
 }
 
-void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
-{
-    const struct ceduo_control *c = &r->scene->controls[control];
-    const struct ceduo_hazard *wooded = hazard_of(r, option + 1, control);
-    LOCAL_TEXT(place);
-    LOCAL_TEXT(rock);
-    ceduo_words_place(&place, c);
-    if (isnan(c->accepted))
-        ceduo_text_append(&rock, _("A rock"));
-    else
-        ceduo_text_format(&rock, _("A rock with more than %s kJ"), SHORTEST(ceduo_words_accepted(c)));
-    ceduo_text_format(text, _("%s reaches %s every %s years today without forest"), rock.bytes, place.bytes,
-                      YEARS(ceduo_hazard_feared(hazard_of(r, 0, control))));
-    if (wooded && r->scene->options_count > 1)
-        ceduo_text_append_joined(text, ", ", _("every %s years with '%s'"), YEARS(ceduo_hazard_feared(wooded)),
-                                 r->scene->options[option].name);
-    else if (wooded)
-        ceduo_text_append_joined(text, ", ", _("every %s years through the wood"), YEARS(ceduo_hazard_feared(wooded)));
-    ceduo_text_char(text, '.');
-}
-
 /* ---- energies of return periods ---- */
 
-/* A figure and its interval, of which hi may be NaN, as 1.2 (1.1–1.3)e7: where there is no room for more. */
-static void append_shorter(struct text *text, double value, double lo, double hi)
+void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *h, size_t i)
 {
-    int e = value > 0 ? (int)floor(log10(value)) : 0;
-    double unit = pow(10, e);
-    ceduo_text_append(text, WRITTEN(value / unit, 2));
-    if (isnan(hi))
-        ceduo_text_format(text, " (> %s)e%d", WRITTEN(lo / unit, 2), e);
-    else
-        ceduo_text_format(text, " (%s\xe2\x80\x93%s)e%d", WRITTEN(lo / unit, 2), WRITTEN(hi / unit, 2), e);
-}
-
-static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
-{
-    static const struct ceduo_page_column columns[] = {
-        {"", 22, 4, CEDUO_WHOLE}, {"", -17, 1, 0}, {"", -17, 1, 0}, {"", -17, 1, 0}};
-    ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s",
-                    _("Energy that is reached or exceeded once in so many years, kJ (95 % interval):"));
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    for (size_t t = 1; t < CEDUO_RETURNS; t++)
-        ceduo_text_format(&page->last->cells[t].text, _("%u years"), ceduo_return_years[t]);
-    for (size_t i = 0; i <= r->scene->options_count; i++) {
-        const struct ceduo_hazard *h = hazard_of(r, i, control);
-        if (!h)
-            continue;
-        ceduo_page_cell_format(page, "%s", name_of(r, i));
-        for (size_t t = 1; t < CEDUO_RETURNS; t++) {
-            struct ceduo_page_cell *cell = ceduo_page_cell(page);
-            const struct ceduo_estimate *energy = &h->returns[t].energy;
-            double value = energy->mean * J_TO_KJ, hi = energy->hi * J_TO_KJ;
-            double lo = isnan(energy->lo) ? 0 : energy->lo * J_TO_KJ;
-            if (isnan(value)) {
-                ceduo_text_append(&cell->text, _("none"));
-                continue;
-            }
-            ceduo_text_format(&cell->text, isnan(hi) ? "%s (> %s)" : "%s (%s\xe2\x80\x93%s)", WRITTEN(value, 3), WRITTEN(lo, 3),
-                              WRITTEN(hi, 3));
-            append_shorter(&cell->shorter, value, lo, hi);
-        }
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
+    const struct ceduo_estimate e = h ? h->returns[i].energy : CEDUO_NO_ESTIMATE;
+    struct text *const texts[] = {&cell->text, &cell->shorter};
+    int power = e.mean > 0 ? (int)floor(log10(e.mean * J_TO_KJ)) : 0;
+    for (int k = 0; k < (isnan(e.mean) ? 0 : 2); k++) { /* 1.2 (1.1–1.3)e7 is shorter */
+        double scale = J_TO_KJ / (k == 0 ? 1 : pow(10, power));
+        int digits = 3 - k;
+        ceduo_text_append(texts[k], WRITTEN(e.mean * scale, digits));
+        if (isnan(e.hi))
+            ceduo_text_format(texts[k], " (> %s)", WRITTEN(isnan(e.lo) ? 0 : e.lo * scale, digits));
+        else
+            ceduo_text_format(texts[k], " (%s\xe2\x80\x93%s)", WRITTEN(isnan(e.lo) ? 0 : e.lo * scale, digits),
+                              WRITTEN(e.hi * scale, digits));
     }
+    if (isnan(e.mean))
+        ceduo_text_append(&cell->text, _("none"));
+    else
+        ceduo_text_format(&cell->shorter, "e%d", power);
 }
 
 /* ---- the square ---- */
@@ -126,7 +82,8 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
             struct text *cell = ceduo_page_text(page); /* which of all have it at that return period, by their numbers */
             for (size_t k = 0; k <= r->scene->options_count; k++) {
                 const struct ceduo_hazard *h = hazard_of(r, k, control);
-                if (h && ceduo_intensity_find(h->returns[t].energy.mean) == i)
+                const struct ceduo_estimate energy = h ? h->returns[t].energy : CEDUO_NO_ESTIMATE;
+                if (h && ceduo_intensity_find(energy.mean) == i)
                     ceduo_text_format(cell, cell->length > 0 ? " %zu" : "%zu", k);
             }
             ceduo_text_append(cell, cell->length == 0 ? "\xc2\xb7" : "");
@@ -141,38 +98,6 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
 
 /* ---- at each control ---- */
 
-/* The same of all options, side by side. */
-static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
-{
-    static const struct ceduo_page_column columns[] = {
-        {"", 26, 4, CEDUO_WHOLE}, {N_("years between"), -21, 1, 0}, {"", -9, 0, 0}, {"", -9, 0, 0}, {"", -9, 0, 0}};
-    static const char *const classes[CEDUO_INTENSITIES] = {N_("weak"), N_("medium"), N_("strong")};
-    ceduo_page_para(
-        page, CEDUO_PAGE_CAPTION,
-        _("Years from one such rock to the next, and what arrives weak, medium and strong, in %% of what does without "
-          "forest:"));
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    for (int k = 0; k < CEDUO_INTENSITIES; k++)
-        ceduo_text_format(&page->last->cells[2 + k].text, "%% %s", _(classes[k]));
-    for (size_t i = 0; i <= r->scene->options_count; i++) {
-        const struct ceduo_hazard *h = hazard_of(r, i, control);
-        if (!h)
-            continue;
-        struct ceduo_estimate rate = ceduo_hazard_feared(h);
-        ceduo_page_cell_format(page, "%s", name_of(r, i));
-        struct ceduo_page_cell *cell = ceduo_page_cell(page);
-        ceduo_text_append(&cell->text, YEARS(rate));
-        if (rate.mean > 0)
-            append_shorter(&cell->shorter, 1 / rate.mean, 1 / rate.hi, rate.lo > 0 ? 1 / rate.lo : NAN);
-        for (size_t k = 0; k < CEDUO_INTENSITIES; k++) {
-            if (isnan(h->intensity[k].left))
-                ceduo_page_cell_format(page, "%s", _("none"));
-            else
-                ceduo_page_number(page, i == 0 ? 100 : h->intensity[k].left * 100, i == 0 ? 3 : 2);
-        }
-    }
-}
-
 void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report, size_t c, bool first)
 {
     const struct ceduo_result *r = report->result;
@@ -183,13 +108,17 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
                     control->name ? ", " : "", control->name ? control->name : "");
     if (first)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
-                        _("%g blocks come down a year. Rare large ones were simulated as often as small ones and "
-                          "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
-                        r->bare.arrivals[c].hazard.per_year, (unsigned long long)r->bare.rocks,
-                        r->bare.arrivals[c].hazard.effective);
-    ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, ceduo_result_best(r, report->verdict), c);
-    add_rates(page, r, c);
-    add_returns(page, r, c);
+                        _("%g blocks fall per year. Rare large blocks were simulated as often as small ones, and weighted: "
+                          "%llu rocks count as %.0f (effective sample size)."),
+                        hazard_of(r, 0, c)->per_year, (unsigned long long)r->bare.rocks, hazard_of(r, 0, c)->effective);
+    ceduo_page_para(
+        page, CEDUO_PAGE_CAPTION,
+        _("Years from one such rock to the next, and what arrives weak, medium and strong, in %% of what does without "
+          "forest:"));
+    ceduo_page_options(page, report, CEDUO_OPTIONS_RATES, c, SIZE_MAX, 0, SIZE_MAX);
+    ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s",
+                    _("Energy reached or exceeded once per return period, kJ (95 % interval):"));
+    ceduo_page_options(page, report, CEDUO_OPTIONS_RETURNS, c, SIZE_MAX, 0, SIZE_MAX);
     add_square(page, r, c);
 }
 

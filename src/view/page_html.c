@@ -179,10 +179,8 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
                 ceduo_page_write_cell(&text, &table->cells[row + i], WIDTH, false);
             const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
             const char *scope = name[1] != 'h' ? NULL : row == 0 ? "col" : "row";
-            bool spans = row == 0 && (table->columns[i].flags & CEDUO_SPAN) && table->cells[i + 1].written.length == 0;
             ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class",
-                            table->columns[i].width < 0 ? "n" : NULL, spans ? "colspan" : "class", spans ? "2" : NULL, NULL);
-            i += spans;
+                            table->columns[i].width < 0 ? "n" : NULL, NULL);
         }
         ceduo_html_close(html);
         if (row == 0)

@@ -34,24 +34,48 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
 /* All of an option at each control, but for its heading; what arrives without forest where there is one option alone. */
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t option, bool bare);
 
-/* An option year by year; all options side by side, as filed and over the years. */
+/* The table of options, or the part of it that a page, a pane or a picture shows: at a control, `rows` options from `first` on, the
+ * name of `cursor` (SIZE_MAX: none) in its role. */
+enum ceduo_options {
+    CEDUO_OPTIONS_SHORT,
+    CEDUO_OPTIONS_TODAY,
+    CEDUO_OPTIONS_YEARS,
+    CEDUO_OPTIONS_PANE,
+    CEDUO_OPTIONS_BARS,
+    CEDUO_OPTIONS_LAWS,    /* by both energy laws */
+    CEDUO_OPTIONS_RATES,   /* of rocks, by their intensity */
+    CEDUO_OPTIONS_RETURNS, /* energies of return periods */
+    CEDUO_OPTIONS_OF_YEARS,
+    CEDUO_OPTIONS_KINDS
+};
+void ceduo_page_options(struct ceduo_page *page, const struct ceduo_report *report, enum ceduo_options kind, size_t control,
+                        size_t cursor, size_t first, size_t rows);
+/* The caption of that table: what its shares are of, at the last control; with `years` also which years. */
+void ceduo_page_shares(struct ceduo_page *page, const struct ceduo_report *report, bool years);
+/* Cell of the energy of return period i; `hazard` may be NULL (not known). */
+void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *hazard, size_t i);
+
+/* An option year by year, with what is to be said of the years together, and these words alone; all options in one table, a row for
+ * each year; all options side by side, today and over the years. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
-/* All options in one table, a row for each year: what arrives with too much energy, or by the index the ADC. */
-void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report);
-/* What is to be said of the years together. */
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
+void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
-void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *result); /* of that the table as filed */
-/* Cells of an option over the years: "812 (17)", what arrives in the worst year, or the ADC by the index, and which year that is;
- * "3/30", years in which a test fails. "-" where it is not known. */
-void ceduo_page_worst(struct ceduo_page *page, const struct ceduo_choice *choice);
-void ceduo_page_fails(struct ceduo_page *page, const struct ceduo_choice *choice, size_t fails, bool known);
 
 /* The energy law of the scene against the other one; nothing where that is not known. */
-void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *result);
+void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_report *report);
 /* How often, and with how much, at a control; nothing where the scene has no blocks. The first also says how that is known. */
 bool ceduo_report_has_hazard(const struct ceduo_report *report);
 void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report, size_t control, bool first);
+
+/* What arrives at a control through the forest of a subject and, `with_bare`, without it: as many figures as a screen of so many lines
+ * has room for, or all of them. */
+#define CEDUO_LINES_SHORT 17 /* of the short page */
+#define CEDUO_LINES_WHOLE 1000
+void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *subject, int lines, bool with_bare);
+
+/* The three tests of an option with their limits, and what the index says. */
+void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *subject, int lines);
 
 /* Percentiles of the rocks that arrive at a control, with their intervals: through the forest of an option (SIZE_MAX: none), and
  * without forest. */
@@ -67,12 +91,10 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
 
 /* ---- words and cells that several of them use ---- */
 
-void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *arrivals); /* cell of the energy, with its error */
-/* The head of the column of the share that a control is judged by: "> 50 kJ", or `otherwise` without an accepted energy. */
-void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *control, enum ceduo_measure_name otherwise);
+/* Write the head of a column of the share that a control is judged by: "> 50 kJ", or "arrive" without an accepted energy. */
+void ceduo_page_limit(struct ceduo_page_cell *head, const struct ceduo_control *control);
 void ceduo_page_free_run(struct ceduo_page *page, double share);
-void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light); /* pass, FAIL, ? */
-void ceduo_page_yes(struct ceduo_page *page, bool yes);                   /* yes, NO */
+void ceduo_page_yes(struct ceduo_page *page, bool yes); /* yes, NO */
 
 /* Adds a warning, or a note; the context is the page. */
 void ceduo_page_warn(void *page, const char *sentence);

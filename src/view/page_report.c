@@ -63,15 +63,13 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     ceduo_measure_uncertainty(&m, uncertainty, option, r->last_control);
     if (isnan(m.may_lo)) {
         if (!uncertainty || ceduo_uncertainty_is_off(uncertainty) || !uncertainty->inputs || uncertainty->inputs->n > 0)
-            ceduo_page_para(
-                page, CEDUO_PAGE_ANSWER, "%s",
-                _("Not everything here is known for certain, and what that changes was not computed: the answer holds "
-                  "if all is as the scene says."));
+            ceduo_page_para(page, CEDUO_PAGE_ANSWER, "%s",
+                            _("Uncertainty was not computed. The answer assumes that the scene is exact."));
         return;
     }
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
     const char *phrase = NAMED(m, CEDUO_PHRASE);
-    ceduo_text_append(text, _("Not everything here is known for certain."));
+    ceduo_text_append(text, _("Some inputs are uncertain."));
     if (r->scene->options_count > 1)
         ceduo_text_append_joined(text, " ",
                                  _("With '%s', in nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."),
@@ -81,7 +79,7 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
                                  m.may_hi, phrase);
     if (o.ahead && o.uncertain && r->scene->blocks_count == 0)
         ceduo_text_append_joined(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
-                                 o.failing_hi, report->verdict->choices[option].over.years);
+                                 o.failing_hi, report->verdict->choices[option].over->years);
     if (o.answer == CEDUO_DEPENDS)
         ceduo_text_append_joined(text, " ", "%s",
                                  _("Some of these cases keep within the limit and some do not: the answer depends on "
@@ -112,18 +110,15 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
     ceduo_page_facts(page, report);
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, options > 1 ? SLOPE_MIN : SLOPE_ROWS, &picture,
-                _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
-                  "upright lines."));
+                _("Side view of the slope with the forest. Thin lines: trajectories of some rocks. Upright lines: controls."));
     picture.ways = true;
     if (report->snapshot && !is_crowded(report))
-        add_picture(
-            page, CEDUO_PLOT_HEIGHT, WHOLE, STRIP_ROWS, &picture,
-            _("Each of these ways as its height above the ground along the slope, and curves of the median and the 95th "
-              "percentile, through the forest and without it."));
+        add_picture(page, CEDUO_PLOT_HEIGHT, WHOLE, STRIP_ROWS, &picture,
+                    _("Height above ground of the same trajectories along the slope, with the median and the 95th percentile, "
+                      "with and without forest."));
     if (report->snapshot && report->result->scene->controls_count > 0 && options == 1)
         add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, STRIP_ROWS, &picture,
-                    _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
-                      "through the forest and without it."));
+                    _("Mean and 95th percentile of the energy of passing rocks along the slope, with and without forest."));
 }
 
 /* Of one option they stand with all its figures; of several those of the one that is drawn. */
@@ -175,32 +170,26 @@ static void add_years(struct ceduo_page *page, const struct ceduo_report *report
                   "arrive with too much energy, and below them which tests each year passes."));
     if (both)
         add_picture(page, CEDUO_PLOT_TRADEOFF, HALF, YEARS_ROWS, &picture,
-                    _("A point for each option: wood felled per hectare and year to the right, rocks that get through "
-                      "upwards."));
+                    _("A point for each option. To the right: volume felled per hectare and year. Upwards: rocks that pass."));
 }
 
 static void add_limits(struct ceduo_page *page, const struct ceduo_result *result)
 {
     static const char *const limits[] = {
-        N_("Rocks move in one vertical plane: what leaves it to the side, and what lies beside it, is not seen."),
+        N_("The model is two-dimensional: lateral motion is ignored."),
         N_("Each rock finds the forest undamaged; rocks do not break, and do not hit each other."),
-        N_("Shrubs, falling trees, air and soil that deforms are not in it; a stem is a straight line as wide as its "
+        N_("Shrubs, falling trees, air drag and soil deformation are ignored. A stem is a cylinder with the diameter of its "
            "dbh."),
-        N_("What a hit takes from a rock is known from few kinds of trees; for thin stems it is the largest doubt of "
-           "all."),
-        N_("A coppice cannot promise to stop any given rock. Where people may be hurt, an engineer must judge the "
-           "situation "
-           "on the ground.")};
-    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("What the model cannot tell"));
+        N_("The energy that a stem absorbs was measured on few species. For thin stems it is the largest uncertainty."),
+        N_("A coppice cannot guarantee to stop a rock. If people may be hurt, an engineer must judge the site.")};
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("Limits of the model"));
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++)
         ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", _(limits[i]));
-    ceduo_page_para(
-        page, CEDUO_PAGE_ITEM, "%s",
-        result->scene->blocks_count > 0
-            ? _("How often blocks come down is as the scene says; only a survey of the wall and of what lies at its "
-                "foot can tell.")
-            : _("Shares are of rocks that come down, not of years: how often one comes down only a survey of the wall "
-                "can tell."));
+    ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s",
+                    result->scene->blocks_count > 0
+                        ? _("The frequency of blocks is that of the scene. A survey of the cliff and of the blocks at its foot "
+                            "must confirm it.")
+                        : _("Shares refer to falling rocks, not to years. A survey of the cliff is needed for frequencies."));
 }
 
 /* The tree with the kinds of its sources alone: their texts fill a sheet, and no figure depends on them. */
@@ -217,13 +206,13 @@ static const struct node *without_texts(struct arena *arena, const struct node *
 
 static void add_origin(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("How to compute this page again"));
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("How to reproduce this page"));
     ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Program")), "ceduo %s", CEDUO_VERSION);
     ceduo_page_para(page, CEDUO_PAGE_SENTENCE, "%s",
                     report->same ? _("This command gives the same page, to the last byte:")
-                                 : _("This command computes the page again:"));
+                                 : _("This command reproduces the page:"));
     ceduo_page_para(page, CEDUO_PAGE_CODE, "%s", report->command);
-    ceduo_page_para(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene, as its file says it, without the texts of sources:"));
+    ceduo_page_para(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene file, without the texts of sources:"));
     /* with what the command line changed, and the names of other files */
     struct arena arena = {0};
     const struct node *root = ceduo_emit_restore_references(&arena, report->file->root);
@@ -245,10 +234,9 @@ static void add_hazard(struct ceduo_page *page, const struct ceduo_report *repor
         ceduo_page_hazard(page, report, k, k == first);
     if (is_crowded(report))
         return;
-    add_picture(
-        page, CEDUO_PLOT_HAZARD, WHOLE, HAZARD_ROWS, &picture,
-        _("Falling curves, one without forest and one for each option: how many years pass from one rock with more than "
-          "an energy to the next. Rules mark 30 and 300 kJ, 30, 100 and 300 years."));
+    add_picture(page, CEDUO_PLOT_HAZARD, WHOLE, HAZARD_ROWS, &picture,
+                _("Return period over energy, without forest and for each option. Lines mark 30 and 300 kJ, and 30, 100 and "
+                  "300 years."));
 }
 
 void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *report)
@@ -276,7 +264,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
         ceduo_page_option(page, report, 0, true);
     }
     if (controls && !is_crowded(report))
-        ceduo_page_laws(page, report->result);
+        ceduo_page_laws(page, report);
     if (controls) {
         if (report->uncertainty && report->uncertainty->answer)
             ceduo_uncertainty_blocks(page, report->uncertainty, scene->options_count <= CROWD);
@@ -290,7 +278,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
         ceduo_page_stand_warnings(page, report->result, i);
     add_limits(page, report->result);
     if (scene->options_count > CROWD)
-        ceduo_page_note(page, _("Not on this page, as it would be too long: what 'ceduo --batch', 'ceduo --plot' and 'ceduo "
-                                "--sensitivity' show."));
+        ceduo_page_note(
+            page, _("Left out of this long page: the output of 'ceduo --batch', 'ceduo --plot' and 'ceduo --sensitivity'."));
     add_origin(page, report);
 }

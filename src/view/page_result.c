@@ -7,6 +7,7 @@
 
 #include "base/language.h"
 #include "page_parts.h"
+#include "plot.h"
 #include "scene/choices.h"
 #include "typed.h"
 
@@ -69,113 +70,159 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
     if (!isnan(c->accepted))
         ceduo_text_append_joined(place, ", ", _("withstands %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
                                  ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
-    ceduo_words_topography(place, &report->result->bare.arrivals[i].topography, false);
+    ceduo_words_topography(place, ceduo_topography_at(&report->result->bare.arrivals[i]), false);
 }
 
-static void add_arrivals_row(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
-                             const struct ceduo_arrivals *a)
+/* A row: name, through the forest, without it; each shorter where its column is narrow. */
+static void add_row(struct ceduo_page *page, const char *const texts[3][2])
 {
-    ceduo_page_cell_format(page, "%s", name);
-    if (!isnan(c->accepted))
-        ceduo_page_cell_format(page, "%s", INTERVAL(ceduo_measure_exceeding(c, a)));
-    ceduo_page_cell_format(page, "%s", INTERVAL(ceduo_measure_arriving(a)));
-    ceduo_page_mean(page, a);
-    ceduo_page_number(page, a->energy.p95 * J_TO_KJ, 3);
-    ceduo_page_number(page, a->speed.mean, 3);
-}
-
-/* The two runs below one another, as far as they are given; what arrives with more than is withstood comes first. */
-static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_control *c, const struct ceduo_arrivals *wooded,
-                               const struct ceduo_arrivals *bare)
-{
-#define NAME   N_("of 1000"), 16, 4, 0
-#define ARRIVE N_("arrive"), -16, 0, 0
-#define MEAN   NP_("head", "arriving kJ|mean energy of those that arrive, kJ"), -12, 0, CEDUO_DROPPED(1)
-#define P95    NP_("head", "95 %|95 % of those below, kJ"), -6, 0, CEDUO_DROPPED(2)
-#define SPEED  NP_("head", "m/s|mean speed, m/s"), -5, 0, CEDUO_DROPPED(3)
-    static const struct ceduo_page_column columns[] = {{NAME}, {NULL, -16, 0, 0}, {ARRIVE}, {MEAN}, {P95}, {SPEED}},
-                                          not_accepted[] = {{NAME}, {ARRIVE}, {MEAN}, {P95}, {SPEED}};
-    if (isnan(c->accepted)) {
-        CEDUO_PAGE_TABLE_OF(page, not_accepted);
-    } else {
-        CEDUO_PAGE_TABLE_OF(page, columns);
-        ceduo_page_limit(page, c, CEDUO_HEAD);
+    for (int i = 0; i < 3; i++) {
+        struct ceduo_page_cell *cell = ceduo_page_cell(page);
+        ceduo_text_append(&cell->text, texts[i][i == 0 && page->width < CEDUO_PAGE_WIDTH]); /* names of a pane are all brief */
+        ceduo_text_append(&cell->shorter, texts[i][1]);
     }
-    if (wooded)
-        add_arrivals_row(page, _("through the wood"), c, wooded);
-    if (bare)
-        add_arrivals_row(page, _("without forest"), c, bare);
 }
 
-/* How the rocks end in the forest: up to a control, and on the whole profile. */
-static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, const struct ceduo_arrivals *a, bool last)
+static void add_figure(struct ceduo_page *page, struct ceduo_measure wood, struct ceduo_measure bare)
 {
-    const double *missed = a->missed, *all = f->ends.share;
-    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line,
-                      _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
-                        "slope"),
-                      a->reach.mean * 1000, missed[CEDUO_STOPPED_BY_STEMS] * 1000, missed[CEDUO_AT_REST] * 1000,
-                      missed[CEDUO_LEFT_SLOPE] * 1000);
-    if (a->unfinished > 0)
-        ceduo_text_append_joined(line, "; ", _("%llu of %llu never come to an end"), (unsigned long long)a->unfinished,
-                                 (unsigned long long)f->rocks);
-    if (a->reached > 0)
-        ceduo_text_append_joined(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts.mean);
-    ceduo_text_char(line, '.');
-    if (last)
+    add_row(page, (const char *const[3][2]){{NAMED(bare, CEDUO_PHRASE), NAMED(bare, CEDUO_ROW)},
+                                            {INTERVAL(wood), WITH_ERROR(wood, "")},
+                                            {INTERVAL(bare), VALUE_OF(bare)}});
+}
+
+#define PANE_WIDE 34 /* columns that hold an interval */
+
+void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s, int lines, bool with_bare)
+{
+    enum { LOW = 15, MIN = 18, ALL = 24, WHOLE = CEDUO_LINES_WHOLE };
+    static const int least[CEDUO_P95_TOP] = {LOW, MIN, MIN, LOW, LOW, LOW, WHOLE, ALL, WHOLE, WHOLE};
+    const struct ceduo_arrivals *wood = s->index ? s->wooded : NULL, *bare = with_bare ? s->bare : NULL;
+    bool whole = lines >= WHOLE, nothing = !whole && ceduo_too_few_arrivals(s->bare), blocks = ceduo_hazard_at(s->bare);
+    int width = page->width >= CEDUO_PAGE_WIDTH ? 18 : page->width >= PANE_WIDE ? 14 : 7;
+    const struct ceduo_page_column columns[] = {
+        {N_("of 1000"), 13, 2, CEDUO_FILLS}, {"", -width, 0, 0}, {"", width == 14 ? -8 : -width, 0, 0}};
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    struct ceduo_page_cell *heads = page->last->cells;
+    ceduo_text_append(&heads[1].text, _("with forest"));
+    ceduo_text_format(&heads[1].shorter, "%s ", _("forest")); /* apart from the next one */
+    ceduo_text_append(&heads[2].text, _("without forest"));
+    ceduo_text_append(&heads[2].shorter, _("without"));
+    add_figure(page, ceduo_measure_arriving(wood), ceduo_measure_arriving(bare));
+    if (!isnan(s->place->accepted) && !nothing)
+        add_figure(page, ceduo_measure_exceeding(s->place, wood), ceduo_measure_exceeding(s->place, bare));
+    if (!whole && !nothing && wood && !isnan(s->today.may_lo) && page->width < CEDUO_PAGE_WIDTH)
+        add_row(page, (const char *const[3][2]){{"", _("  90 % range")}, {MAY_BE(s->today), ""}, {"", ""}});
+    if (blocks && !nothing) /* what matters if blocks of all sizes come down */
+        add_row(page, (const char *const[3][2]){{_("years from one such rock to the next"), _("years apart")},
+                                                {YEARS(ceduo_feared(wood)), EVERY(ceduo_feared(wood))},
+                                                {YEARS(ceduo_feared(bare)), EVERY(ceduo_feared(bare))}});
+    for (enum ceduo_measured what = 0; what < CEDUO_P95_TOP; what++) {
+        const struct ceduo_measure through = ceduo_measured(what, wood), without = ceduo_measured(what, bare);
+        bool any = through.value > 0 || without.value > 0, mean = what >= CEDUO_MEAN_KJ;
+        int from = least[what];
+        if (blocks && !whole && mean) /* the large arrive: a mean of those would read as if the forest did harm */
+            from = what == CEDUO_RELEASED_KJ ? LOW : WHOLE;
+        if (lines >= from && (any || what == CEDUO_STOPPED || what == CEDUO_RESTED || mean) && !(nothing && mean))
+            add_figure(page, through, without);
+    }
+    if (page->width >= CEDUO_PAGE_WIDTH) /* a pane keeps its columns while rocks fall */
+        ceduo_page_trim(page);
+}
+
+/* Signs of a test today and in the worst year ahead: it fails if it does so in any of n years. */
+static void add_test(struct ceduo_page *page, const struct ceduo_subject *s, const char *limit, enum ceduo_light today,
+                     size_t failing, bool known)
+{
+    const struct ceduo_choice *c = s->choice ? ceduo_report_ahead(s->report, s->option) : NULL;
+    ceduo_page_cell_format(page, "%s", limit);
+    ceduo_page_light(page, today);
+    if (c && page->width < CEDUO_PAGE_WIDTH)
+        ceduo_page_light(page, !known || c->over->nothing ? CEDUO_UNKNOWN : failing > 0 ? CEDUO_FAIL : CEDUO_PASS);
+    else
+        ceduo_page_cell_format(page, "%s", "");
+}
+
+static void add_name(struct ceduo_page *page, const char *name, const char *shorter)
+{
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
+    ceduo_text_append(&cell->text, page->width < CEDUO_PAGE_WIDTH ? shorter : name);
+}
+
+static void add_index(struct ceduo_page *page, const char *name, const char *shorter, const char *value)
+{
+    add_name(page, name, shorter);
+    ceduo_page_cell_format(page, "%s", value);
+    for (int i = 0; i < 3; i++)
+        ceduo_page_cell_format(page, "%s", "");
+}
+
+void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, int lines)
+{
+    const struct ceduo_index *index = s->index;
+    const struct ceduo_scene *scene = s->report->result->scene;
+    const struct ceduo_choice none = {0}, *c = s->choice ? s->choice : &none;
+    const struct ceduo_page_column columns[] = {{"", 11, 2, CEDUO_FILLS},
+                                                {"", page->width < CEDUO_PAGE_WIDTH ? -6 : -18, 0, 0},
+                                                {"", -7, 0, 0},
+                                                {"", 1, 1, 0},
+                                                {"", 1, 0, 0}};
+    double threshold = scene->simulation.threshold, limit = ceduo_exceed_limit(scene, s->place), share = s->today.value / 1000;
+    bool judged = index->energy != CEDUO_UNKNOWN && s->wooded;
+    LOCAL_TEXT(below);
+    LOCAL_TEXT(most);
+    LOCAL_TEXT(accepted);
+    ceduo_text_format(&below, "< %s", SHORTEST(threshold));
+    ceduo_text_format(&most, "\xe2\x89\xa4 %g", CEDUO_FREE_RUN_MAX * 100);
+    ceduo_text_format(&accepted, judged ? "\xe2\x89\xa4 %s" : "", ROUNDED(limit * 100, 3));
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    bool gap = index->length > 0 && index->longest_gap > threshold; /* the reason why neither is kept */
+    add_name(page, gap ? _("gap without forest, m") : _("distance between contacts (ADC), m"), gap ? _("gap m") : _("ADC m"));
+    ceduo_page_cell_format(page, "%s", gap ? ROUNDED(index->longest_gap, 6) : BESIDE(index->worst_adc, 3, threshold));
+    add_test(page, s, below.bytes, index->contact, c->over->unprotected_contact, true);
+    add_name(page, _("free run: chance of no contact, %"), _("free run %"));
+    ceduo_page_cell_format(page, "%s", PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MAX));
+    add_test(page, s, most.bytes, index->free_run, c->over->unprotected_free_run, true);
+    add_name(page, _("energy: too much, % of the rocks"), _("energy %"));
+    ceduo_page_cell_format(page, "%s", judged ? PERCENT(share, limit) : s->report->busy && !s->wooded ? "\xe2\x80\xa6" : "-");
+    add_test(page, s, ceduo_text_string(&accepted), index->energy, c->over->unprotected_energy, c->energy_known);
+    if (isnan(index->residual)) /* no rock arrives without forest */
+        return;
+    if (lines >= CEDUO_LINES_SHORT)
+        add_index(page, _("energy taken by stems (index), kJ"), _("taken kJ"), WRITTEN(index->dissipated * J_TO_KJ, 3));
+    add_index(page, _("energy left (index), kJ"), _("left kJ"),
+              index->exhausted ? _("none") : WRITTEN(index->residual * J_TO_KJ, 3));
+    if (!isnan(index->measured) && lines >= CEDUO_LINES_SHORT)
+        add_index(page, _("energy measured on one rock, kJ"), _("measured kJ"), WRITTEN(index->measured * J_TO_KJ, 3));
+}
+
+static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control,
+                         bool with_bare)
+{
+    bool forest = report->result->scene->options[option].belts_count > 0;
+    const struct ceduo_subject s = ceduo_subject_find(report, forest || !with_bare ? option : SIZE_MAX, control);
+    const double *ends = report->result->options[option].wooded.ends.share;
+    if (s.wooded || with_bare)
+        ceduo_page_arrivals(page, &s, CEDUO_LINES_WHOLE, with_bare);
+    const struct ceduo_measure wood = ceduo_measured(CEDUO_MEAN_KJ, s.wooded), bare = ceduo_measured(CEDUO_MEAN_KJ, s.bare);
+    if (forest && wood.value - bare.value > hypot(wood.hi - wood.value, bare.hi - bare.value)) /* reads as harm */
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
+                        _("The mean energy is higher with forest because stems stop the slower and smaller rocks first."));
+    if (s.index && s.wooded && control == report->result->last_control)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
-                        all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
+                        ends[CEDUO_STOPPED_BY_STEMS] * 1000, ends[CEDUO_AT_REST] * 1000, ends[CEDUO_LEFT_SLOPE] * 1000);
 }
 
-static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
+static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
-    const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
-    if (page->width < CEDUO_PAGE_WIDTH && with_bare && r->scene->options[option].belts_count == 0)
-        wooded = NULL; /* in a pane, where both are the same, one is enough */
-    if (wooded || with_bare)
-        add_arrivals_table(page, &r->scene->controls[control], wooded, with_bare ? bare : NULL);
-    if (!wooded)
-        return;
-    /* what reads as harm is that the small and the slow ones are stopped */
-    if (r->scene->options[option].belts_count > 0 &&
-        wooded->energy.mean - bare->energy.mean > CEDUO_Z95 * hypot(wooded->energy.se, bare->energy.se))
-        ceduo_page_para(
-            page, CEDUO_PAGE_SENTENCE,
-            _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean "
-              "is higher."));
-    say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
-}
-
-/* The mean that cannot mislead: of all released; it is no energy that the place must withstand. Either may be NULL. */
-static void say_released(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
-{
-#define RELEASED(a) WRITTEN((a)->energy_per_released.mean *J_TO_KJ, 3)
-#define HALF(a)     WRITTEN(ceduo_half_width((a)->energy_per_released.se, (a)->released) * J_TO_KJ, 2)
-    const struct ceduo_arrivals *first = wooded ? wooded : bare;
-    if (!first)
-        return;
-    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, _("Energy per released rock: %s \xc2\xb1%s kJ"), RELEASED(first), HALF(first));
-    if (wooded && bare)
-        ceduo_text_format(line, _(" through the wood, %s \xc2\xb1%s without it"), RELEASED(bare), HALF(bare));
-    ceduo_text_char(line, '.');
-}
-
-static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
-{
-    const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
-    if (ceduo_too_few_arrivals(bare)) { /* why stands at the head of the page */
-        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy: nothing can be said."));
+    if (ceduo_too_few_arrivals(&r->bare.arrivals[control])) { /* why stands at the head of the page */
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy cannot be assessed."));
         return;
     }
     for (size_t i = 0; i < 3; i++)
         ceduo_words_test(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control, i);
     if (r->options[option].others[control].known && r->options[option].others[control].stems)
         ceduo_words_other(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
-    say_released(page, r->scene->options[option].belts_count > 0 ? ceduo_result_wooded(r, option, control) : NULL,
-                 with_bare ? bare : NULL);
 }
 
 /* ---- belts, by the index ---- */
@@ -183,13 +230,14 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
 static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
                       const struct ceduo_option_result *found)
 {
-    static const struct ceduo_page_column columns[] = {{NP_("head", "m|from, to, m"), 10, 4, CEDUO_WHOLE},
-                                                       {N_("stand"), 27, 0, 0},
-                                                       {N_("ADC m|ADC, m"), -7, 0, 0},
-                                                       {NULL, 6, 1, 0},
-                                                       {NP_("head", "free run|chance of a free run"), -9, 0, 0},
-                                                       {NP_("head", "kJ|energy taken, kJ"), -7, 0, 0},
-                                                       {N_("kJ/100 m|taken per 100 m, kJ"), -9, 0, 0}};
+    static const struct ceduo_page_column columns[] = {
+        {N_("stand"), 10, 2, CEDUO_FILLS},
+        {NP_("head", "m|from, to, m"), 1, 1, CEDUO_FITS | CEDUO_DROPPED(4)},
+        {N_("ADC m|ADC, m"), -5, 1, CEDUO_FITS},
+        {NULL, -5, 1, CEDUO_FITS},
+        {NP_("head", "free run|chance of a free run"), -7, 1, CEDUO_FITS | CEDUO_DROPPED(7)},
+        {NP_("head", "kJ|energy taken, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(8)},
+        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(9)}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *head = ceduo_page_head(page);
     ceduo_text_format(&head->text, "<%s m", SHORTEST(scene->simulation.threshold));
@@ -197,10 +245,12 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
     for (size_t i = 0; i < o->belts_count; i++) {
         const struct ceduo_belt *b = &o->belts[i];
         const struct ceduo_stand_result *s = &found->stands[i];
+        LOCAL_TEXT(name);
+        ceduo_plot_belt_name(&name, b);
+        ceduo_page_cell_role(page, CEDUO_ROLE_BELT, ceduo_text_string(&name));
         ceduo_page_cell_format(page, "%s\xe2\x80\x93%s", SHORTEST(b->from_given), SHORTEST(b->to_given));
-        ceduo_page_cell_format(page, "%s%s", b->name, b->assumed ? "*" : "");
         ceduo_page_cell_format(page, "%s", BESIDE(s->adc_m, 3, scene->simulation.threshold));
-        ceduo_page_yes(page, s->passes_threshold);
+        ceduo_page_light(page, s->passes_threshold ? CEDUO_PASS : CEDUO_FAIL);
         ceduo_page_free_run(page, s->free_run_probability);
         ceduo_page_number(page, s->dissipated * J_TO_KJ, 3);
         ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
@@ -248,7 +298,7 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
 {
 #define SAME(value) WRITTEN(value, (value) > 0 ? decimals + (int)floor(log10(value)) + 1 : 1)
     const struct ceduo_index *index = &r->options[option].controls[control];
-    double mean = r->bare.arrivals[control].energy.mean * J_TO_KJ, taken = index->dissipated * J_TO_KJ;
+    double mean = ceduo_measured(CEDUO_MEAN_KJ, &r->bare.arrivals[control]).value, taken = index->dissipated * J_TO_KJ;
     double left = index->residual * J_TO_KJ;
     int decimals = mean > 0 ? (int)fmax(0, 3 - floor(log10(mean))) : 1; /* of all three, so that what is written is true */
     LOCAL_TEXT(rest);
@@ -258,7 +308,7 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
         ceduo_text_format(&rest, _("%s kJ are left"), SAME(left));
     if (index->length > 0 && mean > 0)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
-                        _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."), SAME(taken),
+                        _("By the index stems could absorb %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."), SAME(taken),
                         WRITTEN(index->per_100m * J_TO_KJ, 3), SAME(mean), rest.bytes);
     if (!isnan(index->measured))
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
@@ -284,7 +334,7 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
                     _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"),
                     SHORTEST(c->x_given));
     CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_page_limit(page, c, CEDUO_HEAD);
+    ceduo_page_limit(ceduo_page_head(page), c);
     bool left_out = false;
     for (size_t i = 0; i < CEDUO_SIZES; i++) {
         const struct ceduo_size_result *b = &blocks[i];
@@ -297,13 +347,12 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
         ceduo_page_number(page, b->adc, 3);
         ceduo_page_number(page, b->contacts, 3);
         ceduo_page_cell_format(page, "%s",
-                               INTERVAL(ceduo_measure_exceeding(c, b->arrivals.released > 0 ? &b->arrivals : NULL)));
-        left_out |= b->arrivals.released == 0;
+                               INTERVAL(ceduo_measure_exceeding(c, ceduo_released(&b->arrivals) > 0 ? &b->arrivals : NULL)));
+        left_out |= ceduo_released(&b->arrivals) == 0;
     }
     if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
-                        _("A size with a dash was left out: its rocks come to so many stems that they would cost far more than "
-                          "those of the scene."));
+                        _("A size with a dash was skipped: its rocks meet too many stems to be simulated here."));
 }
 
 /* ---- what an office expects: percentiles of speed, energy and height with their intervals, and design values ---- */
@@ -327,7 +376,7 @@ static void add_percentile(struct ceduo_page *page, double value, double lo, dou
         ceduo_text_format(cell, " (< %s)", SHOWN(hi));
 }
 
-static void add_row(struct ceduo_page *page, const char *name, const struct ceduo_distribution *d, double scale)
+static void add_percentiles(struct ceduo_page *page, const char *name, const struct ceduo_distribution *d, double scale)
 {
     ceduo_page_cell_format(page, "%s", name);
     add_percentile(page, d->p50 * scale, d->p50_lo * scale, d->p50_hi * scale);
@@ -345,18 +394,17 @@ void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *
                                            bare ? &r->bare.arrivals[control] : NULL};
     if (!runs[0] && !runs[1])
         return;
-    ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s",
-                    _("Percentiles of the rocks that arrive, of so many released (95 % interval):"));
+    ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s", _("Percentiles of the rocks that arrive (95 % interval):"));
     for (size_t i = 0; i < 2; i++) {
         const struct ceduo_arrivals *a = runs[i];
         if (!a)
             continue;
         CEDUO_PAGE_TABLE_OF(page, columns);
-        ceduo_text_format(&ceduo_page_head(page)->text, i == 0 ? _("wood, %llu of %llu") : _("bare, %llu of %llu"),
-                          (unsigned long long)a->reached, (unsigned long long)a->released);
-        add_row(page, _("speed, m/s"), &a->speed, 1);
-        add_row(page, _("energy, kJ"), &a->energy, J_TO_KJ);
-        add_row(page, _("underside, m up"), &a->height, 1);
+        ceduo_text_format(&ceduo_page_head(page)->text, i == 0 ? _("forest, %llu of %llu") : _("without, %llu of %llu"),
+                          (unsigned long long)ceduo_reached(a), (unsigned long long)ceduo_released(a));
+        add_percentiles(page, _("speed, m/s"), ceduo_spread(CEDUO_SPREAD_SPEED, a), 1);
+        add_percentiles(page, _("energy, kJ"), ceduo_spread(CEDUO_SPREAD_ENERGY, a), J_TO_KJ);
+        add_percentiles(page, _("underside, m up"), ceduo_spread(CEDUO_SPREAD_HEIGHT, a), 1);
     }
 }
 
@@ -374,20 +422,22 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control), *bare = &r->bare.arrivals[control];
     bool calibrated = ceduo_notes_print(report->file->notes, "calibrated", "slope");
     double survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD), blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD);
-    double model = FACTOR(calibrated), speed = survey * model, energy = J_TO_KJ * speed * speed * blocks;
-    if (d->survey < 0 || d->blocks < 0 || isnan(bare->speed.p95))
+    double model = FACTOR(calibrated), speed = survey * model, energy = speed * speed * blocks;
+    if (d->survey < 0 || d->blocks < 0 || ceduo_reached(bare) == 0)
         return;
-    for (const struct ceduo_arrivals *a = wooded && !isnan(wooded->speed.p95) ? wooded : bare; a; a = a == bare ? NULL : bare)
+    for (const struct ceduo_arrivals *a = ceduo_reached(wooded) > 0 ? wooded : bare; a; a = a == bare ? NULL : bare)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height of the block's top %s m."),
-                        a == bare ? _("without forest") : _("as long as the wood stands as in this option"),
-                        WRITTEN(a->speed.p95 * speed, 3), WRITTEN(a->energy.p95 * energy, 3), SHOWN(a->top_p95));
+                        a == bare ? _("without forest") : _("with the forest of this option"),
+                        WRITTEN(ceduo_spread(CEDUO_SPREAD_SPEED, a)->p95 * speed, 3),
+                        WRITTEN(ceduo_measured(CEDUO_P95_KJ, a).value * energy, 3),
+                        SHOWN(ceduo_measured(CEDUO_P95_TOP, a).value));
     ceduo_page_para(
         page, CEDUO_PAGE_DETAIL,
         _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, %s. Energy: 95th "
           "percentile times the square of both and %.2f for the survey of the blocks. Height: 95th percentile of the "
           "block's top, its underside and its mean diameter, without a factor."),
-        survey, model, calibrated ? _("fitted to what was seen") : _("not fitted here"), blocks);
+        survey, model, calibrated ? _("fitted to observations") : _("not fitted here"), blocks);
 }
 
 /* ---- an option ---- */
@@ -404,15 +454,15 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_result *r = report->result;
     const struct ceduo_option *option = &r->scene->options[i];
     bool whole = page->width >= CEDUO_PAGE_WIDTH; /* a pane stands beside pictures and a column that say the rest */
+    if (option->belts_count > 0 && r->scene->controls_count > 0)
+        add_belts(page, r->scene, option, &r->options[i]);
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         add_place(page, report, k);
-        add_arrivals(page, r, i, k, bare);
-        say_lights(page, r, i, k, bare);
+        add_arrivals(page, report, i, k, bare);
+        say_lights(page, r, i, k);
         if (whole && r->bare.rocks > 0)
             ceduo_page_percentiles(page, r, i, k, bare);
         ceduo_page_design(page, report, i, k);
-        if (whole && k == 0 && option->belts_count > 0)
-            add_belts(page, r->scene, option, &r->options[i]);
         if (k == 0)
             say_other_forms(page, r->scene, option, &r->options[i]);
         say_residual(page, r, i, k);
@@ -510,10 +560,9 @@ static void add_whole(struct ceduo_page *page, const struct ceduo_report *report
     if (scene->options_count > 1) /* what they share */
         ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
     for (size_t k = 0; scene->options_count > 1 && k < scene->controls_count; k++) {
-        const struct ceduo_arrivals *bare = &report->result->bare.arrivals[k];
+        const struct ceduo_subject bare = ceduo_subject_find(report, SIZE_MAX, k);
         add_place(page, report, k);
-        add_arrivals_table(page, &scene->controls[k], NULL, bare);
-        say_released(page, NULL, bare);
+        ceduo_page_arrivals(page, &bare, CEDUO_LINES_WHOLE, true);
         if (report->result->bare.rocks > 0)
             ceduo_page_percentiles(page, report->result, SIZE_MAX, k, true);
     }

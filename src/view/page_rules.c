@@ -34,11 +34,11 @@ static void say_rule(struct ceduo_page *page, const struct ceduo_belt *belt, con
     if (!all && (!asked || met))
         return;
     if (!asked) {
-        ceduo_page_once(page, CEDUO_PAGE_SENTENCE,
-                        turn ? _("%s: the rules of %s as filed name no rotation for this species (%s); none is checked.")
-                             : _("%s: the rules of %s as filed name no number of standards for this species (%s); none is "
-                                 "checked."),
-                        belt->name, c->of->name, _(ceduo_species_list(&count)[belt->stand.species].common));
+        ceduo_page_once(
+            page, CEDUO_PAGE_SENTENCE,
+            turn ? _("%s: the rules of %s give no rotation for this species (%s). The rotation is not checked.")
+                 : _("%s: the rules of %s give no number of standards for this species (%s). The number is not checked."),
+            belt->name, c->of->name, _(ceduo_species_list(&count)[belt->stand.species].common));
         return;
     }
     append_asked(&wanted, asked);
@@ -63,7 +63,7 @@ void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *
             if (!c->turn_item || !isnan(c->turn))
                 say_rule(page, belt, c, true, all);
         } else if (all) {
-            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, _("%s: the stand names no species; nothing that %s asks is checked."),
+            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, _("%s: the stand has no species, so the rules of %s are not checked."),
                             belt->name, c->of->name);
         }
         if (all)
@@ -115,7 +115,7 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
                 continue;
             if (!rules) {
                 rules = c->of;
-                ceduo_page_para(page, CEDUO_PAGE_SECTION, _("What the rules of %s ask"), rules->name);
+                ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Rules of %s"), rules->name);
                 CEDUO_PAGE_TABLE_OF(page, columns);
             }
             bool listed = false; /* an earlier belt of any option has the same stand */

@@ -13,9 +13,8 @@
 #include "page.h"
 #include "words.h"
 
-#define MARGIN   4      /* columns at the left of a page that a pane does without */
-#define TAIL_MIN 8      /* columns that hold a beginning and an end */
-#define SMALLEST 1e-290 /* a number below it is written as 0: powers of ten with more digits than it has do not exist */
+#define MARGIN   4 /* columns at the left of a page that a pane does without */
+#define TAIL_MIN 8 /* columns that hold a beginning and an end */
 
 /* Where a page is drawn, and the piece that is being printed. */
 struct drawing {
@@ -252,56 +251,10 @@ static void write_number(struct text *cell, double value, int digits, size_t wid
     }
 }
 
-/* A mean and its error with so many digits; false where the mean has none after so few. */
-static bool write_digits(struct text *text, double mean, double half, int digits, const char *sign)
-{
-    ceduo_text_free(text);
-    ceduo_words_number(text, mean, digits);
-    if (digits == 4 || isnan(half)) {
-        ceduo_text_format(text, " %s", sign);
-        ceduo_words_number(text, half, 2);
-        return true;
-    }
-    if (strchr(ceduo_text_string(text), 'e'))
-        return false;
-    /* the error up to whole units of the mean's last place */
-    const char *point = strpbrk(ceduo_text_string(text), ".,");
-    int places = point ? (int)strlen(point + 1) : 0;
-    double unit = pow(10, -places);
-    ceduo_text_format(text, "%s%.*f", sign, places, ceil(half / unit) * unit);
-    return true;
-}
-
-/* A mean and its error, with as many digits as have room; (2.0±0.3)e6 where no other way has. */
-static void write_mean(struct text *text, double mean, double half, size_t width, const char *sign)
-{
-    if (mean < SMALLEST) {
-        mean = 0;
-        half = isnan(half) ? half : 0;
-    }
-    for (int digits = 4; digits > 0 && write_digits(text, mean, half, digits, sign); digits--)
-        if (fits(text, width))
-            return;
-    int e = mean > 0 ? (int)floor(log10(mean)) : 0;
-    for (int places = 1; places >= 0; places--) {
-        double unit = pow(10, e - places);
-        ceduo_text_free(text);
-        if (isnan(half)) /* of one rock */
-            ceduo_text_format(text, "%.*fe%d %s-", places, mean / pow(10, e), e, sign);
-        else
-            ceduo_text_format(text, "(%.*f%s%.*f)e%d", places, mean / pow(10, e), sign, places,
-                              ceil(half / unit) * pow(10, -places), e);
-        if (fits(text, width))
-            return;
-    }
-}
-
 static void write_cell(const struct printer *p, struct text *to, const struct ceduo_page_cell *cell, size_t width)
 {
     if (cell->kind == CEDUO_CELL_NUMBER)
         write_number(to, cell->value, cell->digits, width);
-    else if (cell->kind == CEDUO_CELL_MEAN)
-        write_mean(to, cell->value, cell->half, width, p->plain ? "+-" : "\xc2\xb1");
     else
         append_safe(p, to, ceduo_text_string(&cell->text));
     if (cell->kind != CEDUO_CELL_TEXT && to->bytes)
@@ -330,7 +283,7 @@ static void print_cell(struct printer *p, const struct ceduo_page_column *column
     }
     size_t room = (size_t)abs(width) + ((column->flags & (CEDUO_FITS | CEDUO_FILLS)) != 0);
     write_cell(p, &text, cell, room);
-    if (p->width >= CEDUO_PAGE_WIDE && cell->written.length > 0 && (width == 0 || fits(&cell->written, room))) {
+    if (p->width >= CEDUO_PAGE_WIDE && !p->drawing && cell->written.length > 0 && (width == 0 || fits(&cell->written, room))) {
         ceduo_text_free(&text);
         append_safe(p, &text, cell->written.bytes);
     }
@@ -346,7 +299,6 @@ static void print_cell(struct printer *p, const struct ceduo_page_column *column
 
 #define COLUMNS_MAX 24
 #define ANY_WIDTH   400 /* a cell without limits */
-#define MEAN_WIDTH  12  /* a mean and its error with a blank, as wide as tables of pages have it */
 
 /* The widest cell of a column; `*bars`: there is a bar in it. */
 static int widest_cell(const struct printer *p, const struct ceduo_page_block *table, size_t column, bool *bars)
@@ -355,7 +307,7 @@ static int widest_cell(const struct printer *p, const struct ceduo_page_block *t
     for (size_t i = column; i < table->cells_count; i += table->columns_count) {
         LOCAL_TEXT(text);
         *bars |= table->cells[i].kind == CEDUO_CELL_BAR;
-        write_cell(p, &text, &table->cells[i], table->cells[i].kind == CEDUO_CELL_MEAN ? MEAN_WIDTH : ANY_WIDTH);
+        write_cell(p, &text, &table->cells[i], ANY_WIDTH);
         int width = (int)ceduo_utf8_width(ceduo_text_string(&text));
         widest = width > widest ? width : widest;
     }
@@ -385,12 +337,14 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
         names += c->flags & CEDUO_FILLS ? widths[i] - abs(c->width) : 0; /* what they can be cut by */
         rest -= gap_of(p, c, i) + widths[i];
     }
-    for (size_t rank = 9; rest < 0 && rank > 0; rank--)
+    for (size_t rank = 9; rest < 0 && rank > 0; rank--) {
+        bool dropped = rank >= CEDUO_MINOR || rest + names < 0;
         for (size_t i = 0; i < n; i++)
-            if (table->columns[i].flags >> 8 == rank && (!(table->columns[i].flags & CEDUO_KEPT) || rest + names < 0)) {
+            if (dropped && table->columns[i].flags >> 8 == rank) {
                 rest += gap_of(p, &table->columns[i], i) + widths[i];
                 widths[i] = 0;
             }
+    }
     for (size_t i = 0; i < n; i++)
         bars += has_bars[i] && widths[i] > 0;
     for (size_t i = 0; i < n; i++) { /* names take what is missing, or what is left where there is no bar */
@@ -402,7 +356,8 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
         widths[i] += more;
         rest -= more;
     }
-    for (size_t i = 0; i < n && p->width >= CEDUO_PAGE_WIDE; i++) { /* heads that are written out, as far as they have room */
+    for (size_t i = 0; i < n && p->width >= CEDUO_PAGE_WIDE && !p->drawing;
+         i++) { /* heads that are written out, as far as they have room */
         int more = (int)ceduo_utf8_width(ceduo_text_string(&table->cells[i].written)) + 1 - widths[i];
         if (widths[i] == 0 || more <= 0 || more > rest)
             continue;
@@ -427,18 +382,14 @@ static void print_table(struct printer *p, const struct ceduo_page_block *table)
     for (size_t row = heads ? 0 : n; row + n <= table->cells_count; row += n) {
         for (size_t i = 0; i < n; i++) {
             const struct ceduo_page_column *c = &table->columns[i];
-            bool spans = row == 0 && (c->flags & CEDUO_SPAN);
             int width = widths[i];
             if (width == 0 && c->width != 0)
                 continue;
-            if (spans)
-                width += c[1].gap + abs(c[1].width);
-            else if (c->width < 0)
+            if (c->width < 0)
                 width = -width;
             else if (row == 0 && i == n - 1 && c->width > 0) /* the last head is never cut */
                 width = 0;
             print_cell(p, c, &table->cells[row + i], gap_of(p, c, i), width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
-            i += spans;
         }
         while (!p->drawing && p->text->length > 0 && p->text->bytes[p->text->length - 1] == ' ')
             p->text->bytes[--p->text->length] = '\0';

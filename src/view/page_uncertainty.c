@@ -24,8 +24,8 @@ bool ceduo_uncertainty_is_off(const struct ceduo_uncertainty_report *r)
 
 const char *ceduo_uncertainty_none(const struct ceduo_uncertainty_report *r)
 {
-    return ceduo_uncertainty_is_off(r) ? _("what is not known was not computed, because the scene says 'uncertainty: none'")
-                                       : _("nothing in this scene is marked as assumed");
+    return ceduo_uncertainty_is_off(r) ? _("Uncertainty was not computed: the scene has 'uncertainty: none'")
+                                       : _("Nothing in this scene is marked as assumed");
 }
 
 /* ---- what people and files call the inputs ---- */
@@ -142,8 +142,8 @@ void ceduo_uncertainty_outside(const struct ceduo_uncertainty_report *r, ceduo_s
         append_input_end(&ends, r, i, 0);
         ceduo_text_append(&ends, "\xe2\x80\x93");
         append_input_end(&ends, r, i, 1);
-        ceduo_text_format(&sentence, _("%s is %s, outside its doubt (%s): what may be true is computed within that."),
-                          name.bytes, here.bytes, ends.bytes);
+        ceduo_text_format(&sentence, _("%s is %s, outside its range %s; the range is used."), name.bytes, here.bytes,
+                          ends.bytes);
         say(context, sentence.bytes);
     }
 }
@@ -159,7 +159,7 @@ const char *ceduo_uncertainty_measured(const struct ceduo_uncertainty_report *r,
     const struct ceduo_input *input = &r->inputs->items[i];
     const struct range *range = range_of(r, input);
     if (input->kind == CEDUO_INPUT_DRAWS)
-        return N_("more of what was seen");
+        return N_("more observations");
     return range ? range->measured : input->kind == CEDUO_INPUT_WORDS ? NULL : N_("on the ground");
 }
 
@@ -200,10 +200,11 @@ static struct ceduo_measure measure_of(const struct ceduo_uncertainty_report *r,
     uint64_t own = r->answer->own_rocks;
     own = r->over && own > CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS ? CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS : own;
     struct ceduo_measure m = ceduo_share((struct ceduo_mean_share){NAN, NAN});
-    if (a && a->released >= own) {
-        own = a->released;
-        m = energy ? ceduo_energy_released(a) : ceduo_measure_exceeding(&s->controls[ceduo_scene_last_control(s)], a);
-    } else if (c && c->over.simulated > 0 && c->rocks > own) {
+    if (a && ceduo_released(a) >= own) {
+        own = ceduo_released(a);
+        m = energy ? ceduo_measured(CEDUO_RELEASED_KJ, a)
+                   : ceduo_measure_exceeding(&s->controls[ceduo_scene_last_control(s)], a);
+    } else if (c && c->over->simulated > 0 && c->rocks > own) {
         own = c->rocks;
         m = ceduo_share(c->mean);
     } else {
@@ -227,44 +228,48 @@ void ceduo_uncertainty_points(struct text *text, const struct ceduo_uncertainty_
         ceduo_text_format(text, ngettext("Uncertainty from %zu point.", "Uncertainty from %zu points.", n), n);
 }
 
-/* What a reader takes along: both errors. */
-void ceduo_uncertainty_both(struct text *text, const struct ceduo_uncertainty_report *r, size_t option)
+/* The options from `first` on, at most n, today, or in the mean of the years with the years that fail; `bars`: what the rocks and
+ * what is not known leave open, to scale. */
+static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, bool bars, size_t first, size_t n)
 {
-    const struct ceduo_measure m = measure_of(r, option, NULL);
-    ceduo_text_format(text,
-                      r->over                                       ? _("Over the years %s of 1000 (rocks %s; doubt %s)")
-                      : r->answer->main == CEDUO_UNCERTAINTY_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
-                                                                    : _("%s kJ per released rock (rocks %s; doubt %s)"),
-                      VALUE_OF(m), SPAN(m, m.lo, m.hi), SPAN(m, m.may_lo, m.may_hi));
-}
-
-/* Today, or in the mean of the years with the years that fail. */
-static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_report *report, bool over)
-{
-    static const struct ceduo_page_column today[] = {
-        {N_("option"), 32, 2, 0}, {N_("now"), -7, 0, 0}, {N_("rocks"), -13, 2, 0}, {N_("doubt (90 %)"), -15, 2, 0}};
-    static const struct ceduo_page_column rotation[] = {{N_("over the years, of 1000"), 32, 2, 0},
-                                                        {N_("mean"), -5, 0, 0},
-                                                        {N_("rocks"), -9, 2, 0},
-                                                        {N_("doubt (90 %)"), -13, 2, 0},
-                                                        {N_("years fail"), -11, 2, 0}};
-    struct ceduo_uncertainty_report r = *report;
-    bool judged = over && r.answer->main == CEDUO_UNCERTAINTY_EXCEED;
-    r.over = over;
-    ceduo_page_table(page, over ? rotation : today, judged ? 5 : 4);
-    for (size_t i = 0; i < r.file->scene.options_count; i++) {
-        const struct ceduo_measure m = measure_of(&r, i, NULL);
-        ceduo_page_cell_format(page, "%s", r.file->scene.options[i].name);
+    static const struct ceduo_page_column columns[] = {{NULL, 10, 2, CEDUO_FILLS},
+                                                       {"", 12, 1, CEDUO_FILLS},
+                                                       {"", -5, 1, CEDUO_FITS},
+                                                       {N_("sampling"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(2)},
+                                                       {N_("90 % range"), -5, 1, CEDUO_FITS},
+                                                       {N_("years fail"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(1)}};
+    const struct ceduo_scene *scene = &r->file->scene;
+    const struct ceduo_measure judged = ceduo_measure_exceeding(&scene->controls[ceduo_scene_last_control(scene)], NULL);
+    double end = 0; /* of the axis */
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_text_append(&page->last->cells[0].text, scale_of(r) > 1 ? NAMED(judged, CEDUO_HEAD) : _("kJ a rock"));
+    ceduo_text_append(&page->last->cells[2].text, r->over ? _("mean") : _("today"));
+    for (size_t i = 0; i < scene->options_count; i++) {
+        const struct ceduo_measure m = measure_of(r, i, NULL);
+        const struct ceduo_uncertainty_figure *years =
+            ceduo_uncertainty_find_figure(r->answer, i, CEDUO_UNCERTAINTY_FAILING, false);
+        double lo = floor(years->fit.p5), hi = ceil(years->fit.p95); /* outwards */
+        end = fmax(end, fmax(m.may_hi, m.hi));
+        if (i < first || i - first >= n)
+            continue;
+        ceduo_page_cell_format(page, "%s", scene->options[i].name);
+        struct ceduo_page_bar *bar = ceduo_page_bar(page, bars ? m.hi : NAN, CEDUO_ROLE_TITLE);
+        bar->from = fmax(1e-9, m.lo); /* what the rocks leave open takes at least one cell, at 0, too */
+        bar->least = m.may_lo;
+        bar->most = m.may_hi;
         ceduo_page_cell_format(page, "%s", VALUE_OF(m));
         ceduo_page_cell_format(page, "%s", SPAN(m, m.lo, m.hi));
         ceduo_page_cell_format(page, "%s", SPAN(m, m.may_lo, m.may_hi));
-        if (!judged)
-            continue;
-        const struct ceduo_uncertainty_figure *years =
-            ceduo_uncertainty_find_figure(r.answer, i, CEDUO_UNCERTAINTY_FAILING, false);
-        double lo = floor(years->fit.p5), hi = ceil(years->fit.p95); /* outwards */
-        ceduo_page_cell_format(page, lo == hi || isnan(lo) ? "%.0f" : "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
+        if (!r->over || r->answer->main != CEDUO_UNCERTAINTY_EXCEED || isnan(years->value))
+            ceduo_page_cell_format(page, "%s", "");
+        else
+            ceduo_page_cell_format(page, lo == hi || isnan(lo) ? "%.0f" : "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
     }
+    end = end > 0 ? ceduo_plot_round(end, true) : 1;
+    end = scale_of(r) > 1 ? fmin(1000, end) : end;
+    ceduo_text_format(&page->last->cells[1].text, bars ? "0\xe2\x80\x93%s" : "", ROUNDED(end, 4));
+    ceduo_page_scale(page, 1, 0, end);
+    ceduo_page_trim(page);
 }
 
 /* ---- what it depends on ---- */
@@ -303,9 +308,9 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
     size_t rest = 0;
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (r->file->scene.options_count > 1)
-        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("What '%s' depends on:"), r->file->scene.options[f->option].name);
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Inputs that decide '%s':"), r->file->scene.options[f->option].name);
     if (!f->fit.enough) {
-        ceduo_page_note(page, _("There are too few points to say what it depends on; take more (--sensitivity=N)."));
+        ceduo_page_note(page, _("Too few points to rank the inputs; use more (--sensitivity=N)."));
         return;
     }
     CEDUO_PAGE_TABLE_OF(page, columns);
@@ -329,7 +334,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
         ceduo_page_cell_format(page, "%s", "");
     }
     if (rest == f->uses)
-        ceduo_page_note(page, _("No input stands out; more points (--sensitivity=N) may tell."));
+        ceduo_page_note(page, _("No input is dominant; more points may show one (--sensitivity=N)."));
     else if (rest > 0)
         ceduo_page_para(page, CEDUO_PAGE_NOTE,
                         ngettext("%zu other input has hardly any effect.", "%zu other inputs have hardly any effect.", rest),
@@ -414,8 +419,7 @@ void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncerta
 {
     LOCAL_TEXT(causes);
     if (ceduo_uncertainty_causes(&causes, r, option, ceduo_uncertainty_lights[light]))
-        ceduo_text_format(text, _("Whether the test of %s passes depends on %s."), _(ceduo_light_names[light]),
-                          ceduo_text_string(&causes));
+        ceduo_text_format(text, _("The test of %s depends on %s."), _(ceduo_light_names[light]), ceduo_text_string(&causes));
 }
 
 /* ---- the order of the options ---- */
@@ -426,11 +430,10 @@ void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncerta
 void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncertainty_report *r, size_t i)
 {
     const struct ceduo_scene *s = &r->file->scene;
-    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_ranking_by(r->answer);
-    const struct ceduo_uncertainty_order *o = &ranking->orders[i];
+    const struct ceduo_uncertainty_order *o = &r->answer->orders[i];
     ceduo_text_format(text,
-                      ranking->rotation ? _("Over the years %s is better than %s in %.0f %% of what may be true")
-                                        : _("Today %s is better than %s in %.0f %% of what may be true"),
+                      r->answer->rotation ? _("Over the years %s beats %s in %.0f %% of plausible cases")
+                                          : _("Today %s beats %s in %.0f %% of plausible cases"),
                       s->options[o->better].name, s->options[o->than].name, o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
@@ -445,20 +448,20 @@ void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncerta
 /* Each option and the next one, and how far apart they may lie. */
 static void add_orders(struct ceduo_page *page, const struct ceduo_uncertainty_report *r)
 {
-    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_ranking_by(r->answer);
-    enum ceduo_uncertainty_kind kind = ranking->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
-    for (size_t i = 0; i < ranking->count; i++) {
+    enum ceduo_uncertainty_kind kind = r->answer->rotation ? CEDUO_UNCERTAINTY_MEAN : r->answer->main;
+    for (size_t i = 0; i < r->answer->orders_count; i++) {
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
         LOCAL_TEXT(lo);
         LOCAL_TEXT(hi);
-        ceduo_uncertainty_value(&lo, kind, ranking->orders[i].p5);
-        ceduo_uncertainty_value(&hi, kind, ranking->orders[i].p95);
+        ceduo_uncertainty_value(&lo, kind, r->answer->orders[i].p5);
+        ceduo_uncertainty_value(&hi, kind, r->answer->orders[i].p95);
         ceduo_uncertainty_order_words(text, r, i);
-        if (isnan(ranking->orders[i].p5))
+        if (isnan(r->answer->orders[i].p5))
             continue;
         ceduo_text_append_joined(text, " ",
-                                 kind == CEDUO_UNCERTAINTY_ENERGY ? _("The difference may be %s to %s kJ per released rock.")
-                                                                  : _("The difference may be %s to %s of 1000."),
+                                 kind == CEDUO_UNCERTAINTY_ENERGY
+                                     ? _("Difference: %s to %s kJ per released rock (90 %% range).")
+                                     : _("Difference: %s to %s per 1000 (90 %% range)."),
                                  lo.bytes, hi.bytes);
     }
 }
@@ -476,7 +479,7 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
                         place, c->x_given, ceduo_words_accepted(c));
     else
         ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"), place, c->x_given);
-    add_options(page, r, false);
+    add_options(page, r, false, 0, SIZE_MAX);
     ceduo_uncertainty_outside(r, ceduo_page_warn, page);
     size_t chosen = ceduo_uncertainty_chosen(r);
     const struct ceduo_uncertainty_figure *figure = ceduo_uncertainty_find_figure(r->answer, chosen, r->answer->main, false);
@@ -495,19 +498,19 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     }
     if (r->answer->rotation && all) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
-        add_options(page, r, true);
+        struct ceduo_uncertainty_report over = *r;
+        over.over = true;
+        add_options(page, &over, false, 0, SIZE_MAX);
         add_inputs(page, r, ceduo_uncertainty_find_figure(r->answer, chosen, CEDUO_UNCERTAINTY_MEAN, false));
         ceduo_page_add(page, CEDUO_PAGE_GAP);
     }
     if (all)
         add_orders(page, r);
-    if (!several) /* of several the table has it */
-        ceduo_uncertainty_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
     uint64_t rocks;
     measure_of(r, 0, &rocks);
     ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                    _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
-                      "reduces it. %llu scenes were computed."),
+                    _("Sampling error: %llu rocks; more rocks reduce it. 90 %% range: uncertain inputs; only measurements "
+                      "reduce it. Scenes computed: %llu."),
                     (unsigned long long)rocks, (unsigned long long)r->answer->evaluations);
     LOCAL_TEXT(points);
     ceduo_uncertainty_points(&points, r);
@@ -532,42 +535,12 @@ void ceduo_uncertainty_page(struct text *text, const struct ceduo_uncertainty_re
 #define SHOWN_MIN  0.005 /* of the share of an input */
 #define INPUTS_MIN 2     /* lines: a head and one input */
 
-static void add_bar_of_option(struct ceduo_page *page, const struct ceduo_measure *m, enum ceduo_role role, const char *name)
-{
-    ceduo_page_cell_role(page, role, name);
-    struct ceduo_page_bar *bar = ceduo_page_bar(page, m->hi, CEDUO_ROLE_TITLE);
-    bar->from = fmax(1e-9, m->lo); /* what the rocks leave open takes at least one cell, at 0, too */
-    bar->least = m->may_lo;
-    bar->most = m->may_hi;
-    ceduo_page_cell_format(page, isnan(m->may_lo) ? "%s" : "%s (%s)", VALUE_OF(*m), MAY_BE(*m));
-}
-
 /* Returns the lines that it takes. */
 static int add_option_bars(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, size_t option, int height)
 {
-    static const struct ceduo_page_column columns[] = {
-        {"", 10, 0, CEDUO_FILLS}, {"", 12, 1, CEDUO_FILLS}, {"", -12, 1, CEDUO_FITS}};
-    const struct ceduo_scene *scene = &r->file->scene;
-    size_t n = scene->options_count, lines = height > 4 ? (size_t)height - 1 : 3;
+    size_t n = r->file->scene.options_count, lines = height > 4 ? (size_t)height - 1 : 3;
     size_t most = lines * 2 / 3, room = n + INPUTS_MIN <= lines ? n : most > 1 ? most - 1 : 1;
-    size_t first = option >= room ? option - room + 1 : 0;
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    struct ceduo_page_cell *heads = page->last->cells;
-    const struct ceduo_measure judged = ceduo_measure_exceeding(&scene->controls[ceduo_scene_last_control(scene)], NULL);
-    bool share = ceduo_uncertainty_main(r, 0)->kind != CEDUO_UNCERTAINTY_ENERGY;
-    ceduo_text_append(&heads[0].text, share ? NAMED(judged, CEDUO_HEAD) : _("kJ a rock"));
-    ceduo_text_append(&heads[2].text, r->over ? _("years (may be)") : _("now (may be)"));
-    double end = 0; /* of the axis */
-    for (size_t i = 0; i < n; i++) {
-        const struct ceduo_measure m = measure_of(r, i, NULL);
-        end = fmax(end, fmax(m.may_hi, m.hi));
-        if (i >= first && i < first + room)
-            add_bar_of_option(page, &m, i == option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, scene->options[i].name);
-    }
-    end = end > 0 ? ceduo_plot_round(end, true) : 1;
-    end = scale_of(r) > 1 ? fmin(1000, end) : end;
-    ceduo_text_format(&page->last->cells[1].text, "0\xe2\x80\x93%s", ROUNDED(end, 4));
-    ceduo_page_scale(page, 1, 0, end);
+    add_options(page, r, true, option >= room ? option - room + 1 : 0, room);
     if (n > room)
         ceduo_page_para(page, CEDUO_PAGE_NOTE, ngettext("%zu more option: ] goes on", "%zu more options: ] goes on", n - room),
                         n - room);

@@ -20,20 +20,13 @@ struct ceduo_pane {
  * at its end are warnings. */
 size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane);
 
-/* The ADC of each belt beside the threshold, and a gap; nothing without forest. */
-void ceduo_pane_belts(struct ceduo_page *page, const struct ceduo_pane *pane);
-
-/* The energy that is left at the last control: without forest, by the index, simulated. */
-void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane);
-
 /* All of an option in words, and what is to be said of the run. */
 void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_pane *pane);
 
 /* What uncertainty means for the option: both errors, what to measure first, whether it separates from others, what tests depend on. */
 void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pane);
 
-/* The options side by side, one row each, from the option `first` on, at most `rows`; then what is to be said of them. */
-void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, size_t first, size_t rows);
+/* What is to be said of the options below their table. */
 void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane);
 
 #endif

@@ -51,7 +51,7 @@ struct ceduo_picture {
  *   (marks); with the contact model index without forest alone.
  * The files of the others say what they show. */
 #define CEDUO_PLOT_LIST(X)                                                                                                     \
-    X(PROFILE, profile, CEDUO_PICTURE_OF_ROCKS, N_("slope, forest, and ways"))                                                 \
+    X(PROFILE, profile, CEDUO_PICTURE_OF_ROCKS, N_("slope, forest, and trajectories"))                                                 \
     X(ENERGY, energy, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("energy of the rocks"))                                 \
     X(HEIGHT, height, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("height of the rocks above the ground"))                \
     X(HISTOGRAM, histogram, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_PAGE, N_("energy at %s"))                                   \

@@ -5,6 +5,7 @@
 
 #include "base/language.h"
 #include "plot.h"
+#include "report.h"
 
 struct chart_size {
     int axis, below;   /* columns of the left axis, rows of the bottom axis */
@@ -59,7 +60,8 @@ static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_
 {
     const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_find(d->picture->snapshot, d->scene, item - 1);
     const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
-    return a && a->hazard.curve ? &a->hazard : NULL;
+    const struct ceduo_hazard *h = ceduo_hazard_at(a);
+    return h && h->curve ? h : NULL;
 }
 
 static enum ceduo_role role_of(size_t item)
@@ -123,7 +125,7 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
     const struct ceduo_hazard *bare = blocks ? hazard_of(d, 0) : NULL;
     size_t items = d->wooded ? d->scene->options_count + 1 : 1, last = bare ? bare->curve->count : 0;
     if (!bare)
-        return blocks ? _("not computed yet") : _("the scene does not say which blocks come down");
+        return blocks ? _("not computed yet") : _("the scene has no 'blocks'");
     if (!place_chart(d, &hazard_size, items))
         return _("too narrow");
     while (last > 0 && logarithm(bare->curve->at[last - 1].rate.mean) < RAREST)
@@ -182,7 +184,7 @@ const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
     double yield = 0, share = 0;
     size_t known = 0;
     if (!v || !v->wooded)
-        return !v ? _("not computed yet") : _("without rocks among stems there is nothing to compare");
+        return !v ? _("not computed yet") : _("nothing to compare: no rocks are simulated among stems");
     if (!place_chart(d, &size, v->n + 1))
         return _("too narrow");
     for (size_t i = 0; i < v->n; i++) {
@@ -194,7 +196,7 @@ const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
         share = fmax(share, 1000 * (c->mean.mean + c->mean.half));
     }
     if (known == 0)
-        return isnan(v->choices[0].mean.mean) ? _("not computed yet") : _("no option says how it grows and is cut");
+        return isnan(v->choices[0].mean.mean) ? _("not computed yet") : _("no option has growth and cutting data");
     d->frame.x1 = yield > 0 ? 1.15 * yield : 1;
     d->frame.y1 = share > 0 ? 1.1 * share : 1;
     ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",

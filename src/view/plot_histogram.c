@@ -56,7 +56,7 @@ struct histogram {
 /* Of 1000 released, those in bin i. */
 static double per_1000(const struct counted *c, int i)
 {
-    return c->n > 0 ? 1000 * c->arrivals->reach.mean * (double)c->counts[i] / (double)c->n : 0;
+    return c->n > 0 ? ceduo_measure_arriving(c->arrivals).value * (double)c->counts[i] / (double)c->n : 0;
 }
 
 static void add_mark(const struct histogram *h, int i, double kj, const char *name, struct text *text)
@@ -70,7 +70,7 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i)
 {
     char lo[CEDUO_TICK_LABEL_SIZE], hi[CEDUO_TICK_LABEL_SIZE];
     const struct bins *b = &h->bins;
-    const struct ceduo_distribution *e = &h->rocks.arrivals->energy;
+    const struct ceduo_distribution *e = ceduo_spread(CEDUO_SPREAD_ENERGY, h->rocks.arrivals);
     double from = b->first + i * b->width, end = b->first + b->count * b->width, share = per_1000(&h->rocks, i);
     enum ceduo_role role = isnan(h->accepted)               ? CEDUO_ROLE_MEAN
                            : from >= h->accepted            ? CEDUO_ROLE_BAD
@@ -120,7 +120,7 @@ static void say_all(struct ceduo_page *page, const struct histogram *h, const st
         ceduo_text_append(head, ", ");
         say_share(head, h, &judged, &judged_bare);
     }
-    if (h->rocks.n < a->reached || (bare && h->bare.n < bare->reached))
+    if (h->rocks.n < ceduo_reached(a) || h->bare.n < ceduo_reached(bare))
         ceduo_text_append_joined(head, "; ", _("drawn: the first %zu"), h->rocks.n > h->bare.n ? h->rocks.n : h->bare.n);
 }
 
@@ -181,7 +181,7 @@ const char *ceduo_plot_histogram(struct ceduo_drawing *d)
         struct ceduo_page_cell *heads = d->page->last->cells;
         ceduo_text_append(&heads[1].text, _("\xe2\x94\x82 without forest"));
         ceduo_text_append(&heads[1].shorter, _("\xe2\x94\x82 bare"));
-        ceduo_text_append(&heads[2].text, _("wood"));
+        ceduo_text_append(&heads[2].text, _("forest"));
         ceduo_text_append(&heads[3].text, _("bare"));
     }
     for (int i = 0; i < h.bins.count; i++) {

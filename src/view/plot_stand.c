@@ -115,7 +115,7 @@ static void draw_stems(struct plan *p, struct text *words)
         draw_stool(p, i);
     ceduo_canvas_axis_bottom(p->d->canvas, &p->d->frame, _("m"));
     if (!ceduo_stand_has_stems(s)) {
-        ceduo_text_append(words, _("No stems: nothing stands in a rock's way."));
+        ceduo_text_append(words, _("No stems."));
         return;
     }
     ceduo_text_format(words, _("One pattern of many: %zu met"), p->met);
@@ -180,9 +180,9 @@ static void draw_way(struct plan *p, double from, struct text *words)
     }
     struct ceduo_frame given = ceduo_plot_given(&p->d->frame, from + p->d->scene->slope.origin_x, 0);
     ceduo_canvas_axis_bottom(p->d->canvas, &given, _("m"));
-    ceduo_text_format(
-        words, ngettext("The way of this rock: %zu stem hit in %.3g m", "The way of this rock: %zu stems hit in %.3g m", hit),
-        hit, metres);
+    ceduo_text_format(words,
+                      ngettext("This trajectory: %zu stem hit in %.3g m", "This trajectory: %zu stems hit in %.3g m", hit), hit,
+                      metres);
     ceduo_text_append_joined(words, "; ", _("across \xc3\x97%.2g"), factor);
     if (flown_over > 0)
         ceduo_text_append_joined(words, "; ", _("%zu flown over"), flown_over);

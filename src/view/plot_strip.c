@@ -51,12 +51,12 @@ static const struct content contents[3] = {
       {{NULL, N_("p5")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, {OF(height.p50, energy.p5)}}}},
     {{N_("underside, m up"), N_("energy, kJ")},
      {{{N_("bare p95"), N_("bare p95")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, true, {OF(height.p95, energy.p95)}},
-      {{N_("wood p95"), N_("wood p95")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_DASHES, false, {OF(height.p95, energy.p95)}},
+      {{N_("forest p95"), N_("forest p95")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_DASHES, false, {OF(height.p95, energy.p95)}},
       {{N_("bare p50"), N_("bare mean")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OF(height.p50, mean_energy)}},
-      {{N_("wood p50"), N_("wood mean")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, {OF(height.p50, mean_energy)}}}},
+      {{N_("forest p50"), N_("forest mean")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, {OF(height.p50, mean_energy)}}}},
     {{N_("underside p95, m"), N_("mean energy, kJ")},
      {{{N_("bare"), N_("bare")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OF(height.p95, mean_energy)}},
-      {{N_("wood"), N_("wood")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, {OF(height.p95, mean_energy)}}}}};
+      {{N_("forest"), N_("forest")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, {OF(height.p95, mean_energy)}}}}};
 
 /* Columns for the names of the curves and a blank on either side. */
 static int name_columns(const struct ceduo_canvas *canvas, const struct content *content, bool energy)
@@ -194,7 +194,7 @@ static void put_caption(const struct strip *s, const struct content *content)
     static const struct {
         enum ceduo_role role;
         const char *text;
-    } parts[] = {{CEDUO_ROLE_WOOD, N_("\xe2\x94\x80\xe2\x94\x80 wood")}, {CEDUO_ROLE_BARE, N_("\xc2\xb7\xc2\xb7 bare")}};
+    } parts[] = {{CEDUO_ROLE_WOOD, N_("\xe2\x94\x80\xe2\x94\x80 forest")}, {CEDUO_ROLE_BARE, N_("\xc2\xb7\xc2\xb7 bare")}};
     struct ceduo_canvas *canvas = s->d->canvas;
     int row = s->d->area.top, column = s->d->frame.left, end = s->d->area.left + s->d->area.width;
     if (s->d->frame.top == row)

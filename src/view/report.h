@@ -61,9 +61,6 @@ const char *ceduo_uncertainty_measured(const struct ceduo_uncertainty_report *re
 /* Adds what was found as blocks: a section with tables and what to measure first; of `all` also the mean over a rotation, and how
  * sure the order of the options is. */
 void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncertainty_report *report, bool all);
-/* "469 of 1000 (rocks 438–501; uncertainty 92–740)": the main figure of an option with both errors. */
-void ceduo_uncertainty_both(struct text *text, const struct ceduo_uncertainty_report *report, size_t option);
-
 /* The option that advice is about: the one that lets least pass today in the mean of plausible cases. */
 size_t ceduo_uncertainty_chosen(const struct ceduo_uncertainty_report *report);
 
@@ -107,7 +104,7 @@ enum ceduo_measure_name {
 
 struct ceduo_measure {
     double value, lo, hi;                   /* in the unit shown; NaN: not known, or no interval */
-    double half;                            /* of a share: half the width of its interval, not rounded */
+    double half;                            /* half the width of the interval, not rounded */
     double may_lo, may_hi;                  /* 90 % of what may be true; NaN: not known, see ceduo_measure_uncertainty() */
     int digits;                             /* significant; 0: a whole number */
     const char *names[CEDUO_MEASURE_NAMES]; /* marked for translation; %s in a name is the limit */
@@ -133,14 +130,40 @@ void ceduo_measure_uncertainty(struct ceduo_measure *measure, const struct ceduo
 void ceduo_measure_uncertainty_over(struct ceduo_measure *measure, const struct ceduo_uncertainty_report *uncertainty,
                                     size_t option);
 
-/* The mean energy of the rocks that arrive, that below which 95 % of them stay, and that of all released, in kJ. */
-struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *arrivals);
-struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *arrivals);
-struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *arrivals);
+/* Of 1000 those that end before the control, by how they end; of those that arrive the mean and the 95th percentile of the energy,
+ * the 95th percentile of the height under them, the mean speed, the mean of the stems hit; the mean energy of all released. */
+enum ceduo_measured {
+    CEDUO_STOPPED,
+    CEDUO_RESTED,
+    CEDUO_GONE,
+    CEDUO_ENDLESS,
+    CEDUO_MEAN_KJ,
+    CEDUO_P95_KJ,
+    CEDUO_RELEASED_KJ,
+    CEDUO_P95_HEIGHT,
+    CEDUO_SPEED,
+    CEDUO_STEMS_HIT,
+    CEDUO_P95_TOP, /* of the height of the rocks' tops */
+    CEDUO_MEASURED
+};
+struct ceduo_measure ceduo_measured(enum ceduo_measured what, const struct ceduo_arrivals *arrivals);
 
-/* Of 1000 those that end before the control in one way; the height under the rocks that 95 % of those that arrive stay below, m. */
-struct ceduo_measure ceduo_measure_stopped(const struct ceduo_arrivals *arrivals, enum ceduo_end end);
-struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *arrivals);
+/* Numbers of rocks; 0 of NULL. */
+uint64_t ceduo_released(const struct ceduo_arrivals *arrivals);
+uint64_t ceduo_reached(const struct ceduo_arrivals *arrivals);
+uint64_t ceduo_unfinished(const struct ceduo_arrivals *arrivals);
+
+/* Distribution of those that arrive: m/s, J, m above ground. */
+enum ceduo_spread { CEDUO_SPREAD_SPEED, CEDUO_SPREAD_ENERGY, CEDUO_SPREAD_HEIGHT };
+const struct ceduo_distribution *ceduo_spread(enum ceduo_spread what, const struct ceduo_arrivals *arrivals);
+
+/* True if more rocks may change the test of energy. `arrivals` may be NULL. */
+bool ceduo_is_close_call(const struct ceduo_arrivals *arrivals);
+const struct ceduo_topography *ceduo_topography_at(const struct ceduo_arrivals *arrivals);
+
+/* How often, and with how much; the rate of what is feared. Without blocks, or of NULL, NULL and NaN. */
+const struct ceduo_hazard *ceduo_hazard_at(const struct ceduo_arrivals *arrivals);
+struct ceduo_estimate ceduo_feared(const struct ceduo_arrivals *arrivals);
 
 /* Strings of a measure, which live as long as the block that calls: a name; its value, "-" if it is not known; an interval, "453–501";
  * both, "480 (453–501)"; shorter, "480 ±27" or "480±27" with nothing `between`, and "480" of one rock, whose error is not known. MAY_BE:
@@ -189,23 +212,27 @@ struct ceduo_subject {
     const struct ceduo_report *report;
     size_t option, control;
     const struct ceduo_control *place;
-    const struct ceduo_arrivals *bare, *wooded; /* wooded: NULL: not known */
-    const struct ceduo_index *index;
-    const struct ceduo_choice *choice; /* NULL: not known */
+    const struct ceduo_arrivals *bare, *wooded;   /* wooded: NULL: not known */
+    const struct ceduo_index *index;              /* NULL: without forest */
+    const struct ceduo_choice *choice;            /* NULL: not known */
+    const struct ceduo_alternative_energy *other; /* NULL: not known, or no stem stands */
     struct ceduo_outcome outcome;
     struct ceduo_measure today,
         mean;    /* share by which the place is judged, and its mean over the years; with what may be true */
     bool apart;  /* the caller shows mean, worst year and today elsewhere */
     bool so_far; /* the uncertainty is still being computed */
 };
+/* `option` SIZE_MAX: without forest. */
 struct ceduo_subject ceduo_subject_find(const struct ceduo_report *report, size_t option, size_t control);
+/* In a year of an option, at the last control. */
+struct ceduo_subject ceduo_subject_in(const struct ceduo_report *report, size_t option, const struct ceduo_year *year);
 
 /* An option over the years ahead; NULL if they are not known, or are all as today. */
 static inline const struct ceduo_choice *ceduo_report_ahead(const struct ceduo_report *report, size_t option)
 {
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && option < v->n ? &v->choices[option] : NULL;
-    return c && c->over.years > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT ? c : NULL;
+    return c && c->over->years > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT ? c : NULL;
 }
 
 /* Whether no place is asked for, or nothing can be said of the last one. */

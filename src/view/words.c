@@ -8,10 +8,10 @@
 
 #include "base/language.h"
 
-const char *const ceduo_words_unjudged = N_("What the place withstands is not given (accepted_kJ): energy is not judged.");
+const char *const ceduo_words_unjudged = N_("No accepted energy is set (accepted_kJ): energy is not judged.");
 const char *const ceduo_words_by_index =
-    N_("Without forest every option sees the same rocks: what arrives does not separate them. The index says what stems could "
-       "take, not what a rock loses; no column decides alone.");
+    N_("With contact_model: index no rocks are simulated through the forest, so arrivals do not separate the options. The "
+       "index is the energy that stems could absorb, not the loss of a rock.");
 const char *const ceduo_light_names[] = {N_("contact"), N_("free run"), N_("energy")};
 
 const char *ceduo_words_light(enum ceduo_light light)
@@ -105,7 +105,7 @@ void ceduo_append_with(struct text *text, const char *sentence, const char *stri
     ceduo_text_append(text, at + 2);
 }
 
-__attribute__((format(printf, 3, 4))) static void say_format(ceduo_sentence_sink *say, void *context, const char *format, ...)
+void ceduo_words_format(ceduo_sentence_sink *say, void *context, const char *format, ...)
 {
     LOCAL_TEXT(sentence);
     va_list args;
@@ -135,27 +135,28 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
     const struct ceduo_stand *s = &belt->stand;
     const struct ceduo_stems *const odd[] = {first_unlikely(s, CEDUO_WARN_SLENDER), first_unlikely(s, CEDUO_WARN_STOUT)};
     if (r->warnings & CEDUO_WARN_BASAL_AREA)
-        say_format(say, context,
-                   _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."),
-                   NAME_OF(belt), r->basal_area, CEDUO_BASAL_AREA_MAX);
+        ceduo_words_format(say, context,
+                           _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."),
+                           NAME_OF(belt), r->basal_area, CEDUO_BASAL_AREA_MAX);
     if (r->warnings & CEDUO_WARN_MANY_SHOOTS)
-        say_format(say, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."), NAME_OF(belt),
-                   ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MAX);
+        ceduo_words_format(say, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."), NAME_OF(belt),
+                           ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MAX);
     for (size_t i = 0; i < 2; i++)
         if (odd[i])
-            say_format(say, context,
-                       _("%s: stems of %.3g cm are %.3g m high, usual are %d to %d times their diameter: check both."),
-                       NAME_OF(belt), odd[i]->dbh * 100, odd[i]->height, CEDUO_SLENDERNESS_MIN, CEDUO_SLENDERNESS_MAX);
+            ceduo_words_format(
+                say, context,
+                _("%s: %.3g cm stems, %.3g m tall: unusual height/diameter ratio (usual %d\xe2\x80\x93%d). Check both."),
+                NAME_OF(belt), odd[i]->dbh * 100, odd[i]->height, CEDUO_SLENDERNESS_MIN, CEDUO_SLENDERNESS_MAX);
     for (size_t i = 0; stems_at(s, i); i++) {
         const struct ceduo_beside_curve at = ceduo_stems_beside_curve(s, belt->cut_year, i);
         if (fabs(at.basal_area - at.by_curve) > CEDUO_OFF_CURVE * at.by_curve)
-            say_format(say, context,
-                       i < s->shoots_count
-                           ? _("%s: the shoots of %g years have %.1f m2/ha of basal area. The stand's own growth "
-                               "gives %.1f at that age: check diameter, age and growth.")
-                           : _("%s: the trees of %g years have %.1f m2/ha of basal area. The stand's own growth "
-                               "gives %.1f at that age: check diameter, age and growth."),
-                       NAME_OF(belt), at.age, at.basal_area, at.by_curve);
+            ceduo_words_format(say, context,
+                               i < s->shoots_count
+                                   ? _("%s: the shoots of %g years have %.1f m2/ha of basal area. The stand's own growth "
+                                       "gives %.1f at that age: check diameter, age and growth.")
+                                   : _("%s: the trees of %g years have %.1f m2/ha of basal area. The stand's own growth "
+                                       "gives %.1f at that age: check diameter, age and growth."),
+                               NAME_OF(belt), at.age, at.basal_area, at.by_curve);
     }
 }
 
@@ -165,10 +166,10 @@ void ceduo_words_thick_stems(const struct ceduo_belt *belt, ceduo_sentence_sink 
     const struct ceduo_stems *thick = first_unlikely(s, CEDUO_WARN_THICK);
     size_t n;
     if (thick)
-        say_format(say, context,
-                   _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
-                     "were measured on, %g cm: check them."),
-                   NAME_OF(belt), thick->dbh * 100, ceduo_species_list(&n)[s->species].d_hi);
+        ceduo_words_format(say, context,
+                           _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
+                             "were measured on, %g cm: check them."),
+                           NAME_OF(belt), thick->dbh * 100, ceduo_species_list(&n)[s->species].d_hi);
 }
 
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
@@ -176,37 +177,41 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
 {
     const struct ceduo_stand *s = &belt->stand;
     if ((!r->bare || r->felled) && r->trees_per_ha < scene->reserves_minimum)
-        say_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."), NAME_OF(belt),
-                   r->trees_per_ha, scene->reserves_minimum);
+        ceduo_words_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."),
+                           NAME_OF(belt), r->trees_per_ha, scene->reserves_minimum);
     ceduo_words_unlikely(belt, r, say, context);
     ceduo_words_thick_stems(belt, say, context);
     double diameter = ceduo_rock_mean(&scene->rock).mean_diameter;
     if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
-        say_format(say, context,
-                   _("%s: Eq. 6 gives %.2f m between contacts, less than the mean free path of %.2f m over all stems, "
-                     "which no path can have: a spacing of %g m is too wide for %.1f shoots a stool."),
-                   NAME_OF(belt), r->adc.interception, r->adc.gsteiger_stems, s->spacing,
-                   ceduo_stand_shoots(s) / s->stools_per_ha);
+        ceduo_words_format(say, context,
+                           _("%s: Eq. 6 gives %.2f m between contacts, below the mean free path of %.2f m over all stems. This "
+                             "is impossible: spacing %g m is too wide for %.1f shoots per stool."),
+                           NAME_OF(belt), r->adc.interception, r->adc.gsteiger_stems, s->spacing,
+                           ceduo_stand_shoots(s) / s->stools_per_ha);
     if (r->warnings & CEDUO_WARN_NEAR_JUMP)
-        say_format(say, context,
-                   _("%s: the rock (%.2f m) is within 10 %% of the shoots' spacing (%g m), where the paper's rule jumps "
-                     "between %.2f m (all stems) and %.2f m (Eq. 6)."),
-                   NAME_OF(belt), diameter, s->spacing, r->adc.gsteiger_stems, r->adc.interception);
+        ceduo_words_format(
+            say, context,
+            _("%s: the rock (%.2f m) is within 10 %% of the shoots' spacing (%g m), where the paper's rule jumps "
+              "between %.2f m (all stems) and %.2f m (Eq. 6)."),
+            NAME_OF(belt), diameter, s->spacing, r->adc.gsteiger_stems, r->adc.interception);
     if (r->warnings & CEDUO_WARN_WIDE_SPACING)
-        say_format(say, context,
-                   _("%s: the shoots of a stool stand so far apart (%g m) that the rock can pass between two of them."),
-                   NAME_OF(belt), s->spacing);
+        ceduo_words_format(say, context,
+                           _("%s: the shoots of a stool stand so far apart (%g m) that the rock can pass between two of them."),
+                           NAME_OF(belt), s->spacing);
     if (r->warnings & CEDUO_WARN_DORREN_THIN)
-        say_format(say, context,
-                   _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overshoots there."),
-                   NAME_OF(belt));
+        ceduo_words_format(
+            say, context,
+            _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overshoots there."),
+            NAME_OF(belt));
     if (r->warnings & CEDUO_WARN_RATIO_ASSUMED)
-        say_format(say, context, _("%s: the fracture ratio of this species is not known; 1 is assumed."), NAME_OF(belt));
+        ceduo_words_format(say, context, _("%s: no fracture ratio is published for this species; 1 is assumed."),
+                           NAME_OF(belt));
     if (r->warnings & CEDUO_WARN_LOW)
-        say_format(say, context,
-                   _("%s: stumps and logs are among the contacts of the index, but the lights of contact and free run do "
-                     "not count them: a rock flies over them."),
-                   NAME_OF(belt));
+        ceduo_words_format(
+            say, context,
+            _("%s: stumps and logs are among the contacts of the index, but the lights of contact and free run do "
+              "not count them: a rock flies over them."),
+            NAME_OF(belt));
     const struct ceduo_stems *first = NULL; /* kind of stem with a volume by form factor; of those too thick it is said above */
     size_t n = 0;
     for (size_t i = 0; r->warnings & CEDUO_WARN_FORM_FACTOR && stems_at(s, i); i++) {
@@ -217,142 +222,23 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
             first = n++ == 0 ? stems_at(s, i) : first;
     }
     if (n > 0)
-        say_format(say, context,
-                   s->species < 0
-                       ? ngettext("%s: no species is given, and no volume for %zu kind of stem (%.3g cm, %.3g m high); form "
-                                  "factor 0.5 is assumed.",
-                                  "%s: no species is given, and no volume for %zu kinds of stem (the first %.3g cm, %.3g m "
-                                  "high); form factor 0.5 is assumed.",
-                                  n)
-                       : ngettext("%s: %zu kind of stem (%.3g cm, %.3g m high) lies outside the volumes that its species' "
-                                  "equation was made from; the form factor at their edge is assumed.",
-                                  "%s: %zu kinds of stem (the first %.3g cm, %.3g m high) lie outside the volumes that their "
-                                  "species' equation was made from; the form factor at their edge is assumed.",
-                                  n),
-                   NAME_OF(belt), n, first->dbh * 100, first->height);
+        ceduo_words_format(
+            say, context,
+            s->species < 0
+                ? ngettext("%s: no species is given, and no volume for %zu kind of stem (%.3g cm, %.3g m high); form "
+                           "factor 0.5 is assumed.",
+                           "%s: no species is given, and no volume for %zu kinds of stem (the first %.3g cm, %.3g m "
+                           "high); form factor 0.5 is assumed.",
+                           n)
+                : ngettext("%s: %zu kind of stem (%.3g cm, %.3g m high) lies outside the volumes that its species' "
+                           "equation was made from; the form factor at their edge is assumed.",
+                           "%s: %zu kinds of stem (the first %.3g cm, %.3g m high) lie outside the volumes that their "
+                           "species' equation was made from; the form factor at their edge is assumed.",
+                           n),
+            NAME_OF(belt), n, first->dbh * 100, first->height);
     if (r->warnings & CEDUO_WARN_U_ASSUMED)
-        say_format(say, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."),
-                   NAME_OF(belt), ceduo_stand_u(s));
-}
-
-/* Rocks that leave the slope over its upper end, which would lie above it or come down again; and those that stems stop just below
- * the release, in the option where they are most. */
-static void say_lost(const struct ceduo_result *result, ceduo_sentence_sink *say, void *context)
-{
-    const struct ceduo_simulated *uphill = &result->bare;
-    double most = 0;
-    size_t option = 0;
-    for (size_t i = 0; result->wooded && i < result->scene->options_count; i++) {
-        const struct ceduo_simulated *f = &result->options[i].wooded;
-        double share = f->rocks > 0 ? (double)f->ends.early / (double)f->rocks : 0;
-        uphill = f->ends.uphill > uphill->ends.uphill ? f : uphill;
-        option = share > most ? i : option;
-        most = share > most ? share : most;
-    }
-    if (uphill->ends.uphill > 0)
-        say_format(say, context,
-                   _("Of %llu rocks simulated %llu bounce back over the upper end of the profile and are counted as gone: let "
-                     "it begin farther up."),
-                   (unsigned long long)uphill->rocks, (unsigned long long)uphill->ends.uphill);
-    if (most * 1000 >= 0.5)
-        say_format(say, context,
-                   _("%s: of 1000 rocks simulated stems stop %.0f within %g m of the release, before they have any speed."),
-                   NAME_OF(&result->scene->options[option]), most * 1000, CEDUO_EARLY_M);
-}
-
-/* Warns of controls with unusual rocks: more or fewer than the terrain suggests, faster or higher than on slopes. */
-static void say_ground(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
-{
-    for (size_t c = 0; c < r->scene->controls_count; c++) {
-        const struct ceduo_arrivals *bare = &r->bare.arrivals[c];
-        const struct ceduo_topography *t = &bare->topography;
-        enum ceduo_terrain terrain = ceduo_terrain(bare);
-        LOCAL_TEXT(name);
-        ceduo_words_place(&name, &r->scene->controls[c]);
-        const char *where = ceduo_text_string(&name);
-        if (terrain == CEDUO_TERRAIN_BENCH)
-            say_format(say, context,
-                       _("%s: few rocks arrive without forest, though it lies under a reach angle of %.0f\xc2\xb0. A bench of "
-                         "%.0f m may hold them: check on the ground that it does."),
-                       where, t->reach * DEGREES, t->bench);
-        if (terrain == CEDUO_TERRAIN_FAR)
-            say_format(say, context,
-                       _("%s: %.0f of 1000 rocks arrive without forest, though it lies under a shadow angle of only "
-                         "%.0f\xc2\xb0. Evans and Hungr (1993) suggest 27.5\xc2\xb0 as the smallest: check the friction of "
-                         "the ground."),
-                       where, bare->reach.mean * 1000, t->shadow * DEGREES);
-        if (bare->speed.mean > CEDUO_SPEED_USUAL)
-            say_format(say, context,
-                       r->scene->simulation.law == CEDUO_LAW_LUMPED
-                           ? _("%s: the mean speed without forest is %.0f m/s, and more than %.0f is unusual. The law "
-                               "lumped has no limit of speed on long slopes: use crsp.")
-                           : _("%s: the mean speed without forest is %.0f m/s, and more than %.0f is unusual. Check "
-                               "roughness and friction of the ground."),
-                       where, bare->speed.mean, CEDUO_SPEED_USUAL);
-        if (bare->height.p95 > CEDUO_HEIGHT_USUAL)
-            say_format(
-                say, context,
-                _("%s: 1 rock in 20 passes more than %.0f m above the ground without forest, and more than %.0f m is unusual. "
-                  "Check roughness and restitution of the ground, and the profile."),
-                where, bare->height.p95, CEDUO_HEIGHT_USUAL);
-    }
-}
-
-void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
-                              ceduo_sentence_sink *say, void *context)
-{
-    if (remarks->tolerance > 0 && !remarks->tolerance_met)
-        say_format(say, context, _("The tolerance of %g was not met with %llu rocks."), remarks->tolerance,
-                   (unsigned long long)ceduo_result_rocks(result));
-    for (size_t i = 0; remarks->tolerance > 0 && i < result->scene->controls_count; i++) {
-        uint64_t fewest = result->bare.arrivals[i].reached;
-        for (size_t k = 0; k < result->options_count; k++) {
-            const struct ceduo_arrivals *a = ceduo_result_wooded(result, k, i);
-            fewest = a && a->reached < fewest ? a->reached : fewest;
-        }
-        if (fewest < CEDUO_ARRIVALS_MIN)
-            say_format(say, context, _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
-                       result->scene->controls[i].x_given, (unsigned long long)fewest);
-    }
-    say_ground(result, say, context);
-    uint64_t unfinished = ceduo_result_unfinished(result);
-    if (unfinished > 0 && result->bare.ends.count[CEDUO_UNFINISHED] == 0)
-        say_format(say, context,
-                   ngettext("%llu rock had more than %d contacts or stems on its way through the wood and counts as "
-                            "unfinished: are the rock's size and the stems per hectare as they should be?",
-                            "%llu rocks had more than %d contacts or stems on their way through the wood and count as "
-                            "unfinished: are the rock's size and the stems per hectare as they should be?",
-                            (unsigned long)unfinished),
-                   (unsigned long long)unfinished, CEDUO_STEMS_MAX);
-    else if (unfinished > 0)
-        say_format(say, context,
-                   ngettext("%llu rock was still moving after %d contacts and counts as unfinished: does the ground "
-                            "take energy?",
-                            "%llu rocks were still moving after %d contacts and count as unfinished: does the ground "
-                            "take energy?",
-                            (unsigned long)unfinished),
-                   (unsigned long long)unfinished, CEDUO_CONTACTS_MAX);
-    for (size_t i = 0; i < result->options_count; i++)
-        for (size_t c = 0; c < result->scene->controls_count; c++) {
-            const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
-            if (!a || !(a->exceed.lo <= a->limit && a->exceed.hi > a->limit) ||
-                ceduo_energy_light(a) == CEDUO_UNKNOWN) /* more rocks cannot help */
-                continue;
-            if (result->scene->blocks_count > 0)
-                say_format(
-                    say, context,
-                    _("%s, %g m: whether a rock above the limit arrives at most once in %g years today is too close to call; "
-                      "simulate more rocks."),
-                    NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, a->hazard.accepted_return);
-            else
-                say_format(say, context,
-                           _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
-                             "simulate more rocks."),
-                           NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, a->limit * 1000);
-        }
-    say_lost(result, say, context);
-    if (remarks->ground_assumed)
-        say_format(say, context, _("The slope's file says no ground: talus is assumed everywhere."));
+        ceduo_words_format(say, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."),
+                           NAME_OF(belt), ceduo_stand_u(s));
 }
 
 /* ---- lights ---- */
@@ -369,7 +255,7 @@ static void say_reason(struct text *text, const struct ceduo_index *s, double li
     if (contact && s->contact == CEDUO_PASS)
         ceduo_text_format(text, _("Every belt has an ADC below %g m (%s m at most) and no gap is longer."), limit, adc);
     else if (!(s->length > 0))
-        ceduo_text_append(text, _("No stem stands on the way."));
+        ceduo_text_append(text, _("No stem stands on the path."));
     else if (s->longest_gap > limit)
         ceduo_text_format(text, _("A gap of %s m has no forest; a rock reaches full speed in %g m."),
                           ROUNDED(s->longest_gap, 6), limit);
@@ -425,14 +311,8 @@ void ceduo_words_thin_stems(const struct ceduo_result *r, ceduo_sentence_sink *s
         ceduo_text_cut(&where, 0);
     if (n > NAMED_MAX)
         ceduo_text_format(&where, _(" in %zu of %zu options"), n, r->options_count);
-    say_format(say, context, _("Counting only stems from %g cm on, contact or free run fails today%s."), CEDUO_THICK_DBH * 100,
-               ceduo_text_string(&where));
-}
-
-const char *ceduo_words_shown_of_1000(double p, double lo, double hi, char room[CEDUO_NUMBER_ROOM])
-{
-    snprintf(room, CEDUO_NUMBER_ROOM, "%.0f (%.0f\xe2\x80\x93%.0f)", p * 1000, floor(lo * 1000), ceil(hi * 1000));
-    return room;
+    ceduo_words_format(say, context, _("Counting only stems from %g cm on, contact or free run fails today%s."),
+                       CEDUO_THICK_DBH * 100, ceduo_text_string(&where));
 }
 
 /* ---- the profile ---- */

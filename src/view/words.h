@@ -16,6 +16,7 @@
 
 /* Takes sentences one by one. */
 typedef void ceduo_sentence_sink(void *context, const char *sentence);
+void ceduo_words_format(ceduo_sentence_sink *say, void *context, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* Append "271 points, 13 after simplifying to 0.5 m" of a profile, or its points alone if none is left out. */
 void ceduo_words_points(struct text *text, const struct ceduo_slope *slope);
@@ -99,7 +100,6 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *result,
 void ceduo_words_year_numbering(struct text *text, uint64_t rocks);
 
 /* How often what is feared at a control happens, in one sentence; "13" and "13 (9–14)" years. */
-void ceduo_words_hazard(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 const char *ceduo_words_interval_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
 const char *ceduo_words_years(struct ceduo_estimate rate, char room[CEDUO_WORDS_ROOM]);
 #define EVERY(rate) ceduo_words_interval_years(rate, (char[CEDUO_WORDS_ROOM]){0})
@@ -131,13 +131,10 @@ void ceduo_append_with(struct text *text, const char *sentence, const char *stri
  * "none" where infinite. */
 void ceduo_words_number(struct text *text, double value, int digits);
 
-/* The same in a string, for a sentence, and "991 (984–995)", of 1000 rocks with the 95 % interval: it lives as long as the block in
- * which it is made. */
+/* The same in a string, for a sentence: it lives as long as the block in which it is made. */
 const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
 const char *ceduo_words_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
-const char *ceduo_words_shown_of_1000(double probability, double lo, double hi, char room[CEDUO_NUMBER_ROOM]);
-#define WRITTEN(value, digits)     ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
-#define WRITTEN_OF_1000(p, lo, hi) ceduo_words_shown_of_1000(p, lo, hi, (char[CEDUO_NUMBER_ROOM]){0})
+#define WRITTEN(value, digits) ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
 /* A figure beside the limit that it is judged by, with so many digits or as it takes to lie where it does: 29.98 below 30;
  * a share in percent. */
 const char *ceduo_words_against_limit(double value, int digits, double limit, char room[CEDUO_NUMBER_ROOM]);

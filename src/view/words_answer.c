@@ -30,7 +30,7 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement)
 /* Appends why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, what is usual, and what to check. */
 static void say_contradiction(struct text *text, const struct ceduo_arrivals *bare)
 {
-    double reach = bare->topography.reach * DEGREES, shadow = bare->topography.shadow * DEGREES;
+    double reach = ceduo_topography_at(bare)->reach * DEGREES, shadow = ceduo_topography_at(bare)->shadow * DEGREES;
     if (shadow > CEDUO_SHADOW_STEEP)
         ceduo_text_append_joined(
             text, " ",
@@ -52,8 +52,9 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     LOCAL_TEXT(where);
     ceduo_words_place(&where, &r->scene->controls[control]);
-    ceduo_text_format(text, _("Nothing can be said of the forest above %s: of %llu rocks %llu arrive, even without forest."),
-                      ceduo_text_string(&where), (unsigned long long)bare->released, (unsigned long long)bare->reached);
+    ceduo_text_format(text, _("The forest above %s cannot be assessed: of %llu rocks only %llu arrive even without it."),
+                      ceduo_text_string(&where), (unsigned long long)ceduo_released(bare),
+                      (unsigned long long)ceduo_reached(bare));
     /* where rocks start without forest, and how far they come */
     const struct ceduo_slope *s = &r->scene->slope;
     double start = r->scene->release.x.mean, falls = atan(ceduo_slope_fall(s, start)) * 180 / M_PI;
@@ -82,8 +83,7 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
             text, " ", "%s",
             _("Write where they start (release.x_m), or what sets them in motion (release.height_m, vx_m_s)."));
     else
-        ceduo_text_append_joined(text, " ", "%s",
-                                 _("If release and ground are right, rocks do not come as far as this place."));
+        ceduo_text_append_joined(text, " ", "%s", _("If release and ground are right, rocks do not reach this place."));
 }
 
 void ceduo_words_still_moving(const struct ceduo_result *r, ceduo_sentence_sink *say, void *context)
@@ -111,28 +111,26 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
         return;
     }
     if (judgement == CEDUO_UNANSWERED) {
-        ceduo_text_append(text, isnan(c->accepted) ? _("It is not said what the place withstands (accepted_kJ).")
-                                : !r->wooded       ? _("The index alone says nothing of single rocks (contact_model: index).")
+        ceduo_text_append(text, isnan(c->accepted) ? _("No accepted energy is set (accepted_kJ).")
+                                : !r->wooded       ? _("With contact_model: index no rocks are simulated through the forest.")
                                                    : _("Not computed yet."));
         return;
     }
     const struct ceduo_arrivals *shown = wooded ? wooded : bare;
     if (r->scene->blocks_count > 0)
         ceduo_text_format(text, _("A rock with more than %s kJ arrives every %s years (one in %s years is accepted)."),
-                          SHORTEST(ceduo_words_accepted(c)), YEARS(ceduo_hazard_feared(&shown->hazard)),
-                          SHORTEST(ceduo_accepted_return(c)));
+                          SHORTEST(ceduo_words_accepted(c)), YEARS(ceduo_feared(shown)), SHORTEST(ceduo_accepted_return(c)));
     else
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
-                          WRITTEN_OF_1000(shown->exceed.mean, shown->exceed.lo, shown->exceed.hi), ceduo_words_accepted(c),
-                          CEDUO_EXCEED_MAX * 1000);
+                          INTERVAL(ceduo_measure_exceeding(c, shown)), ceduo_words_accepted(c), CEDUO_EXCEED_MAX * 1000);
     if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
-        ceduo_text_append_joined(text, " ", _("%llu rocks never came to an end, and may arrive."),
-                                 (unsigned long long)shown->unfinished);
+        ceduo_text_append_joined(text, " ", _("%llu rocks were still moving when the simulation stopped; they may arrive."),
+                                 (unsigned long long)ceduo_unfinished(shown));
     else if (judgement == CEDUO_NOT_DECIDED)
-        ceduo_text_append_joined(text, " ", _("So many rocks do not decide it (%llu): more do."),
-                                 (unsigned long long)shown->released);
+        ceduo_text_append_joined(text, " ", _("%llu rocks are too few to decide; simulate more."),
+                                 (unsigned long long)ceduo_released(shown));
     else if (also_bare)
-        ceduo_text_append_joined(text, " ", "%s", _("The slope keeps to that without forest, too."));
+        ceduo_text_append_joined(text, " ", "%s", _("The slope meets the limit even without forest."));
 }
 
 /* ---- in one line ---- */
@@ -147,19 +145,34 @@ struct ceduo_subject ceduo_subject_find(const struct ceduo_report *report, size_
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_verdict *v = report->verdict;
+    bool forest = option < r->scene->options_count;
     struct ceduo_subject s = {.report = report,
                               .option = option,
                               .control = control,
                               .place = &r->scene->controls[control],
                               .bare = &r->bare.arrivals[control],
-                              .wooded = ceduo_result_wooded(r, option, control),
-                              .index = &r->options[option].controls[control],
-                              .choice = v && option < v->n ? &v->choices[option] : NULL,
-                              .outcome = ceduo_report_outcome(report, option, control)};
+                              .wooded = forest ? ceduo_result_wooded(r, option, control) : &r->bare.arrivals[control],
+                              .index = forest ? &r->options[option].controls[control] : NULL,
+                              .choice = v && option < v->n ? &v->choices[option] : NULL};
+    const struct ceduo_alternative_energy *other = forest ? &r->options[option].others[control] : NULL;
+    s.other = other && other->known && other->stems ? other : NULL;
     s.today = ceduo_measure_exceeding(s.place, s.wooded);
     s.mean = ceduo_share(s.choice ? s.choice->mean : (struct ceduo_mean_share){NAN, NAN});
-    ceduo_measure_uncertainty(&s.today, report->uncertainty, option, control);
-    ceduo_measure_uncertainty_over(&s.mean, report->uncertainty, option);
+    if (forest) {
+        s.outcome = ceduo_report_outcome(report, option, control);
+        ceduo_measure_uncertainty(&s.today, report->uncertainty, option, control);
+        ceduo_measure_uncertainty_over(&s.mean, report->uncertainty, option);
+    }
+    return s;
+}
+
+struct ceduo_subject ceduo_subject_in(const struct ceduo_report *report, size_t option, const struct ceduo_year *year)
+{
+    struct ceduo_subject s = ceduo_subject_find(report, option, report->result->last_control);
+    s.index = &year->controls[s.control];
+    s.wooded = year->wooded.rocks > 0 ? &year->wooded.arrivals[s.control] : NULL;
+    s.choice = NULL;
+    s.today = ceduo_measure_exceeding(s.place, s.wooded);
     return s;
 }
 
@@ -253,7 +266,7 @@ static void say_rate(struct text *text, const struct ceduo_subject *s, enum leng
     if (length == FULL && ahead)
         ceduo_text_format(text, _(", mean of %zu years"), s->choice->ahead[s->control].years);
     if (length <= SHORT && ahead && s->wooded)
-        ceduo_text_format(text, _("; today every %s"), EVERY(ceduo_hazard_feared(&s->wooded->hazard)));
+        ceduo_text_format(text, _("; today every %s"), EVERY(ceduo_feared(s->wooded)));
 }
 
 /* "479 of 1000 arrive with more than 50 kJ (at most 50 rocks are accepted); may be 234–748" */
@@ -281,22 +294,22 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, size_t 
     const struct ceduo_scene *scene = s->report->result->scene;
     const struct ceduo_outcome *o = &s->outcome;
     const struct ceduo_measure bare = ceduo_measure_exceeding(s->place, s->bare);
-    const char *left = WRITTEN(s->index->residual * J_TO_KJ, 3), *mean = WRITTEN(s->bare->energy.mean * J_TO_KJ, 3);
+    const char *left = WRITTEN(s->index->residual * J_TO_KJ, 3),
+               *mean = WRITTEN(ceduo_measured(CEDUO_MEAN_KJ, s->bare).value, 3);
     for (enum length i = FULL; i < LENGTHS; i++) {
         ceduo_text_free(text);
         if (o->impossible)
             ceduo_text_append(text,
                               i < BRIEF ? _("more stems than a forest can hold: check the stand") : _("impossible stand"));
         else if (o->answer == CEDUO_NOTHING)
-            ceduo_text_format(text, _("of %llu rocks %llu arrive, even without forest"), (unsigned long long)s->bare->released,
-                              (unsigned long long)s->bare->reached);
+            ceduo_text_format(text, _("of %llu rocks only %llu arrive, even without forest"),
+                              (unsigned long long)ceduo_released(s->bare), (unsigned long long)ceduo_reached(s->bare));
         else if (!s->wooded && s->report->result->wooded)
             ceduo_text_append(text, _("not computed yet"));
         else if (!s->wooded && o->answer != CEDUO_YES)
-            ceduo_text_format(text,
-                              i == FULL ? _("the index leaves %s of %s kJ in the mean; it knows no single rocks")
-                                        : _("the index leaves %s of %s kJ"),
-                              left, mean);
+            ceduo_text_format(
+                text, i == FULL ? _("by the index %s of %s kJ remain on average") : _("by the index %s of %s kJ remain"), left,
+                mean);
         else if (scene->blocks_count > 0 && !isnan(o->rate.mean))
             say_rate(text, s, i);
         else if (o->answer == CEDUO_YES && o->also_bare)

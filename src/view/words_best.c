@@ -23,12 +23,12 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option)
         if (!still && !ceduo_stand_is_bare(&option->belts[i].stand))
             still = &option->belts[i];
     if (kind == CEDUO_WINDOW_AHEAD)
-        ceduo_text_format(text, _("'%s' grows, but is never cut."), NAME_OF(option));
+        ceduo_text_format(text, _("'%s' grows and is never cut."), NAME_OF(option));
     else if (kind == CEDUO_WINDOW_CONSTANT && !still)
-        ceduo_text_format(text, _("All years of '%s' are alike: no stem stands in it."), NAME_OF(option));
+        ceduo_text_format(text, _("'%s' does not change: no stem stands in it."), NAME_OF(option));
     else if (kind == CEDUO_WINDOW_CONSTANT)
-        ceduo_text_format(text, _("The answer for '%s' is that of today: the file of '%s' has no growth (growth, cutting)."),
-                          NAME_OF(option), NAME_OF(still));
+        ceduo_text_format(text, _("'%s' does not change: stand '%s' has no growth and cutting data."), NAME_OF(option),
+                          NAME_OF(still));
 }
 
 void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_sentence_sink *say, void *context)
@@ -56,7 +56,7 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, cons
     else if (!s.nothing)
         ceduo_text_append_joined(text, " ", _("the ADC is largest in year %u."), s.worst_year);
     if (s.nothing)
-        ceduo_text_append_joined(text, " ", "%s", _("Nothing can be said: no rock arrives, even without forest."));
+        ceduo_text_append_joined(text, " ", "%s", _("The forest cannot be assessed: no rock arrives, even without it."));
     else if (s.simulated > 0 && says)
         ceduo_text_append_joined(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."),
                                  s.unprotected_energy, s.unprotected_contact, s.unprotected_free_run, s.years);
@@ -141,7 +141,7 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
 {
     if (v->nothing)
-        ceduo_text_append(text, _("Nothing can be said: no rock arrives, even without forest."));
+        ceduo_text_append(text, _("The forest cannot be assessed: no rock arrives, even without it."));
     LOCAL_TEXT(over);
     ceduo_text_format(&over, _("In years %u to %u"), window_of(v)->first, window_of(v)->last);
     const char *when = over.bytes;
@@ -174,24 +174,24 @@ void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t o
     const char *law = ceduo_words_law(ceduo_energy_words.names[o->model]);
     if (!o->known || !o->stems)
         return;
-    if (isnan(a->energy.mean)) {
+    const struct ceduo_measure energy = ceduo_measured(CEDUO_MEAN_KJ, a);
+    if (isnan(energy.value)) {
         ceduo_text_format(text, _("With the energy law %s no rock arrives."), law);
         return;
     }
-    const char *mean = WRITTEN(a->energy.mean * J_TO_KJ, 3);
-    const char *half = WRITTEN(ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ, 2);
-    const char *reach = WRITTEN_OF_1000(a->reach.mean, a->reach.lo, a->reach.hi);
-    if (isnan(a->exceed.mean))
+    const char *mean = WRITTEN(energy.value, 3), *half = WRITTEN(energy.half, 2), *reach = INTERVAL(ceduo_measure_arriving(a));
+    const struct ceduo_control *c = &r->scene->controls[control];
+    if (isnan(c->accepted))
         ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
                           mean, half);
     else
         ceduo_text_format(text,
-                          _("With the energy law %s: %s of 1000 arrive, %s with more than it withstands; the mean of those "
-                            "that arrive is %s \xc2\xb1%s kJ."),
-                          law, reach, WRITTEN_OF_1000(a->exceed.mean, a->exceed.lo, a->exceed.hi), mean, half);
-    if (a->released < ceduo_result_rocks(r))
+                          _("With the energy law %s: %s of 1000 arrive, %s with more than the accepted energy; their mean is "
+                            "%s \xc2\xb1%s kJ."),
+                          law, reach, INTERVAL(ceduo_measure_exceeding(c, a)), mean, half);
+    if (ceduo_released(a) < ceduo_result_rocks(r))
         ceduo_text_append_joined(text, " ", _("Under this law the first %llu rocks alone were simulated."),
-                                 (unsigned long long)a->released);
+                                 (unsigned long long)ceduo_released(a));
 }
 
 static double of_1000(const struct ceduo_result *r, size_t option, bool other)
@@ -219,8 +219,8 @@ void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo
             bool stems = r->options[a].others[r->last_control].stems;
             const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].others[r->last_control];
             ceduo_text_format(&sentence,
-                              _("'%s' or '%s' is undecided: the order depends on the energy law. As the scene has it %.0f "
-                                "and %.0f of 1000, with %s %.0f and %.0f."),
+                              _("Ranking of '%s' and '%s' depends on the energy law. By the law of the scene %.0f and %.0f of "
+                                "1000, by %s %.0f and %.0f."),
                               NAME_OF(&r->scene->options[a]), NAME_OF(&r->scene->options[b]), of_1000(r, a, false),
                               of_1000(r, b, false), ceduo_words_law(ceduo_energy_words.names[o->model]), of_1000(r, a, true),
                               of_1000(r, b, true));

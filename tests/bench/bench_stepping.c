@@ -168,7 +168,7 @@ int main(int argc, char **argv)
                            .segment = j,
                            .on_ground = true};
         struct landing l = next_landing(&g, &f);
-        if (!l.left)
+        if (!l.off_slope)
             launches[i++] = (struct launch){f, l.x};
     }
     puts("what,step_s_or_tolerance,flights,ns_per_flight,rms_error_m,largest_error_m,beyond_1_m");

@@ -62,8 +62,25 @@ def section(text, name):
     return "\n".join(lines[first:end])
 
 
-ARRIVALS_ROW = re.compile(r"^ {4}(?:through the wood|without forest) +(?:(\d+ \(\d+–\d+\)) +)?(\d+ \(\d+–\d+\)) +"
-                          r"(?:-|([\d.]+) ?±(-|[\d.]+)) +(-|[\d.e]+) +(-|[\d.e]+)$")
+CELL = r"(-|none|[^ (]+(?: \([^()]+\))?)"
+SIDES = {"with forest": "wooded", "without forest": "bare"}
+
+
+def arrivals_of(text):
+    """The tables of what arrives, one after another: [{"wooded" or "bare": {name of a row: cell}}]."""
+    tables, sides = [], []
+    for line in text.splitlines():
+        head = re.match(r"^  of 1000 +((?:with|without) forest)(?: +(without forest))?$", line)
+        row = sides and re.match(rf"^  (\S.*?) +{' +'.join([CELL] * len(sides))}$", line)
+        if head:
+            sides = [SIDES[side] for side in head.groups() if side]
+            tables.append({side: {} for side in sides})
+        elif row and not line.startswith("   "):
+            for side, cell in zip(sides, row.groups()[1:]):
+                tables[-1][side][row[1]] = cell
+        else:
+            sides = []
+    return tables
 
 
 @functools.cache
@@ -86,59 +103,56 @@ def half_of_mean(figure, count):
     return figure["se"] * student(count - 1)
 
 
-def expect_arrivals(line, arrivals):
-    """A line of the table of arrivals has a blank between any two cells, and what it says of a mean and its error is true."""
-    found = ARRIVALS_ROW.match(line)
-    expect(found, "cells run into one another:", repr(line))
-    exceed, reach, mean, half, p95, speed = found.groups()
-    expect_equal((exceed or "-", reach), (of_1000("exceed", arrivals), of_1000("reach", arrivals)), line)
-    energy = arrivals["energy_kJ"]
-    expect_equal(mean is None, energy["mean"] is None, line)
-    if mean is not None and arrivals["rocks_reached"] < 10:
-        expect_equal(half, "-", f"an error of so few rocks: {line}")
-    elif mean is not None:
-        wanted = half_of_mean(energy, arrivals["rocks_reached"])
-        expect(half != "-" and float(half) >= 0.94 * wanted, f"an error of {wanted} is said to be less:", line)
-        expect(abs(float(mean) - energy["mean"]) <= float(half) + 1e-3 * energy["mean"],
-               f"the mean of {energy['mean']} lies beyond its error:", line)
-        unit = 10.0 ** -len(half.partition(".")[2])  # it is rounded up
-        expect(float(half) <= max(1.1 * wanted, wanted + 1.001 * unit, 0.1 * energy["mean"]), f"an error of {wanted} is said to be far more:", line)
-    for cell, value in ((p95, energy["p95"]), (speed, arrivals["speed_m_s"]["mean"])):
-        expect_equal(cell == "-", value is None, line)
-        if value is not None:
-            expect_near(float(cell), value, 0.051 * abs(value), line)
+def expect_mean(cell, figure, count, what):
+    found = re.match(r"(-|[\d.e+-]+)(?: \(([\d.e+-]+)\u2013([\d.e+-]+)\))?$", cell)
+    expect(found, "cells run into one another:", what, cell)
+    expect_equal(found[1] == "-", figure["mean"] is None, what)
+    if found[1] == "-":
+        return
+    expect_near(float(found[1]), figure["mean"], 0.006 * abs(figure["mean"]), what)
+    if found[2] is not None:
+        half = half_of_mean(figure, count)
+        for shown, wanted in zip(found.groups()[1:], (figure["mean"] - half, figure["mean"] + half)):
+            expect_near(float(shown), wanted, 0.006 * abs(wanted) + 1e-9, what)
+    else:
+        expect(count < 10 or not figure["se"] or len(cell) > 5, f"no error of {count} rocks: {what}", cell)
+
+
+def expect_arrivals(rows, arrivals):
+    """What a table says of one side is what the JSON of the same run holds."""
+    named = {re.sub(r"arrive with more than .* kJ", "exceed", name): cell for name, cell in rows.items()}
+    expect_equal((named.get("exceed", "-"), named["arrive"]), (of_1000("exceed", arrivals), of_1000("reach", arrivals)), rows)
+    expect_mean(named.get("mean energy of those that arrive, kJ", "-"), arrivals["energy_kJ"], arrivals["rocks_reached"], rows)
+    expect_mean(named.get("mean speed of those that arrive, m/s", "-"), arrivals["speed_m_s"], arrivals["rocks_reached"], rows)
+    p95 = arrivals["energy_kJ"]["p95"]
+    expect_equal(named.get("95 % stay below, kJ", "-"), digits(p95, 3) if p95 is None or p95 < 1e9 else named["95 % stay below, kJ"], rows)
+    expect(named["energy per released rock, kJ"].split()[0] == digits(arrivals["energy_per_released_kJ"]["mean"], 3), "kJ a rock", rows)
+    ways = (("stopped by stems before", "stopped_by_stems"), ("at rest before", "came_to_rest"), ("left the slope before", "left_slope"))
+    for name, key in ways:
+        expect_equal(named.get(name, "0"), f"{arrivals['missed'][key] * 1000:.0f}", rows)
 
 
 def expect_option(text, option, alone=True):
     """The page of an option says what the JSON of the same run holds; of one of several the slope without forest stands elsewhere."""
     flat_text = re.sub(r"\s+", " ", text)
-    bare = table_row(text, "without forest")
-    wooded = table_row(text, "through the wood")
-    expect_equal(len(bare), len(option["controls"]) if alone else 0, "rows without forest")
-    expect_equal(len(wooded), 0 if option["controls"][0]["wooded"] is None else len(option["controls"]), "rows through the wood")
-    for i, control in enumerate(option["controls"]):
+    tables = arrivals_of(text)
+    flown = option["controls"][0]["wooded"] is not None
+    expect_equal(len(tables), len(option["controls"]) if alone or flown else 0, "tables of what arrives")
+    for table, control in zip(tables, option["controls"]):
+        expect_equal("bare" in table, alone, "what arrives without forest")
         if alone:
-            expect_arrivals(bare[i], control["bare"])
-        if not wooded:
+            expect_arrivals(table["bare"], control["bare"])
+        expect(flown or "wooded" not in table, "figures of rocks that do not fly", table)
+        if "wooded" not in table:
             continue
-        expect_arrivals(wooded[i], control["wooded"])
+        expect_arrivals(table["wooded"], control["wooded"])
         ways = ("stopped_by_stems", "came_to_rest", "left_slope")
-        missed, reach = control["wooded"]["missed"], control["wooded"]["reach_probability"]
-        expect_near(reach + sum(missed.values()), 1, 1e-12, "all released end somewhere")
-        shares = [f"{share * 1000:.0f}" for share in (reach, *(missed[k] for k in ways))]
-        expect_in("Of 1000, {} arrive; before that {} are stopped by stems, {} come to rest, {} leave the slope".format(*shares),
-                  flat_text, "ends before the control")
+        expect_near(control["wooded"]["reach_probability"] + sum(control["wooded"]["missed"].values()), 1, 1e-12, "all released end somewhere")
         shares = [f"{option['ends'][k] * 1000:.0f}" for k in ways]
         expect_in("On the whole profile: of 1000, {} are stopped by stems, {} come to rest, {} leave it".format(*shares),
                   flat_text, "ends")
-        energies = [digits(control[k]["energy_per_released_kJ"]["mean"], 3) for k in ("wooded", "bare")]
-        place = flat_text[[m.end() for m in re.finditer(r" At [\d.]+ m", flat_text)][i]:]
-        expect(place.index(" of 1000 ") < place.index("Energy per released rock"), "a mean over all stands above the shares", text)
-        said = r"Energy per released rock: {} ±\S+ kJ through the wood, {} ±\S+ without it\." if alone else r"Energy per released rock: {} ±\S+ kJ\."
-        expect(re.search(said.format(*map(re.escape, energies)), flat_text), energies, text)
         if control["wooded"]["rocks_reached"] > 0:
-            hit = f"{control['wooded']['contacts']['mean']:.3g}"
-            expect(re.search(rf"\b{re.escape(hit)} stems?\b", flat_text), f"'{hit} stems' is missing in:", text)
+            expect_equal(table["wooded"].get("stems hit by one that arrives", "0"), digits(control["wooded"]["contacts"]["mean"], 3), "stems hit")
     words = {"pass": "passes", "fail": "FAILS", "unknown": "unknown"}
     told = [c for c in option["controls"] if c["verdict"]["answer"] != "nothing"]
     nothing = len(re.findall("Contact, free run and energy: nothing can be said", flat_text))
@@ -162,13 +176,6 @@ def side_by_side(text, names):
 
 def columns(line):
     return sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in line)
-
-
-def cells_of_rows(text):
-    """What stands in the rows of arrivals behind the shares: mean, 95 %, m/s."""
-    rows = re.findall(r"^    (?:through the wood|without forest) .*$", text, re.M)
-    expect(rows, "no rows", text)
-    return [re.sub(r"^ *(?:through the wood|without forest)|\d+ \(\d+–\d+\)", "", row).strip().rsplit(None, 2) for row in rows]
 
 
 BLOCK = re.compile(r"^ {2}([> ]) +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+|none) +([\d.]+) +(-|\d+ \(\d+–\d+\))$")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import Folder, belt, expect, expect_equal, expect_in, good, result, run_all, stand, wooded_scene
-from pages import WHOLE, expect_arrivals, expect_cells, expect_option, expect_order, expect_width, section, side_by_side, table_row
+from pages import WHOLE, arrivals_of, expect_arrivals, expect_cells, expect_option, expect_order, expect_width, section, side_by_side
 from runs import FOUR, THICK, THIN, through, treated
 
 
@@ -31,23 +31,22 @@ def test_table_options():
     expect_order(text, *[re.escape(n) for n in names], "(?i)side by side")
     for option in run["options"]:
         expect_option(section(text, option["name"]), option, alone=False)
-    expect_arrivals(table_row(section(text, "without forest"), "without forest")[1], run["options"][0]["controls"][0]["bare"])
+    expect_arrivals(arrivals_of(section(text, "without forest"))[0]["bare"], run["options"][0]["controls"][0]["bare"])
     head, rows, words = side_by_side(text, names)
     expect_in("> 50 kJ", head, "head")
-    for name, word in (("simple coppice, just cut", "FAIL"), ("simple coppice, 25 years", "pass"),
-                       ("large reserves, just cut", "FAIL")):
-        expect(re.search(rf" [\d.]+ {word}\b", rows[name]), f"no {word} of contact", rows[name])
+    for name, word in (("simple coppice, just cut", "✘"), ("simple coppice, 25 years", "✔"), ("large reserves, just cut", "✘")):
+        expect(re.search(rf" [\d.]+ {word} ", rows[name]), f"no {word} of contact", rows[name])
     for option in run["options"]:
         wooded = option["controls"][0]["wooded"]
         share = wooded["exceed_probability"]
         half = math.ceil(1959.963984540054 * math.sqrt(share * (1 - share) / run["rocks"]))
-        expect_cells(rows[option["name"]], f"{share * 1000:.0f} ±{half}")
-        light = {"pass": "pass", "fail": "FAIL"}[option["controls"][0]["lights"]["energy"]]
-        expect(re.search(rf" {share * 1000:.0f} ±{half} +(-|\S+ ±\d+) +{light} +[\d.]+ (pass|FAIL) ", rows[option["name"]]),
+        expect_cells(rows[option["name"]], f"{share * 1000:.0f}±{half}")
+        light = {"pass": "✔", "fail": "✘"}[option["controls"][0]["lights"]["energy"]]
+        expect(re.search(rf" {share * 1000:.0f}±{half} {light} +(-|\S+±\d+) +[\d.]+ [✔✘] ", rows[option["name"]]),
                "the share and its light are not the first", rows[option["name"]])
     for difference in run["differences"]:
         d = difference["exceed_probability"]
-        expect_cells(rows[difference["option"]], f"{d['mean'] * 1000:+.0f} ±{math.ceil(d['se'] * 1959.963984540054)}")
+        expect_cells(rows[difference["option"]], f"{d['mean'] * 1000:+.0f}±{math.ceil(d['se'] * 1959.963984540054)}")
     expect_in("Today no option passes the test of energy: it does not separate them", words, "what does not separate them")
     shares = {o["name"]: o["controls"][0]["wooded"]["exceed_probability"] for o in run["options"]}
     best = leader(shares, {d["option"]: d["exceed_probability"] for d in run["differences"]})
@@ -57,13 +56,12 @@ def test_table_options():
     expect(all(w["mean_lo"] > windows[best]["mean_hi"] for name, w in windows.items() if name != best), "none is best by far", windows)
     expect_in(f"In years 1 to 25 '{best}' lets the fewest dangerous rocks through: {1000 * windows[best]['mean']:.0f} of 1000.", words,
               "the best over the years")
-    expect_in("Over years 1 to 25: of 1000 released, in the mean and in the worst of these years, counted from today, with 500 rocks in each; ",
-              words)
-    lines = text[text.index("Over years 1 to 25:"):].splitlines()
+    expect_in("Over years 1 to 25, counted from today: ", words)
+    lines = text[text.index("Over years 1 to 25, counted"):].splitlines()
     first = next(i for i, line in enumerate(lines) if line.strip().startswith("option")) + 1
     for w, row in zip(windows.values(), lines[first:first + len(names)]):
         half = math.ceil(1000 * (w["mean_hi"] - w["mean"]))
-        expect(re.search(rf" {1000 * w['mean']:.0f} ±{half} +{1000 * w['worst']:.0f} \({w['worst_year']}\) .* {w['failing_years']}/25 ", row), row, w)
+        expect(re.search(rf" {1000 * w['mean']:.0f}±{half} +(?:\S+ +)?{1000 * w['worst']:.0f} \({w['worst_year']}\) +{w['failing_years']}/25 ", row), row, w)
     expect("By contact" not in words, words)
     expect_width(text)
     same = good(*WHOLE, "-n", 50, FOUR, "--option", "large reserves", "--option", "coppice with standards").out
@@ -77,9 +75,8 @@ def test_table_options_index():
     expect_order(text, *[re.escape(n) for n in names], "(?i)side by side")
     head, rows, words = side_by_side(text, names)
     expect_in("what arrives does not separate them", words)
-    for name, word in (("simple coppice, just cut", "FAIL"), ("simple coppice, 25 years", "pass"),
-                       ("large reserves, just cut", "FAIL")):
-        expect(re.search(rf"[\d.]+ {word}\b", rows[name]), f"no {word} of contact", rows[name])
+    for name, word in (("simple coppice, just cut", "✘"), ("simple coppice, 25 years", "✔"), ("large reserves, just cut", "✘")):
+        expect(re.search(rf"[\d.]+ {word} ", rows[name]), f"no {word} of contact", rows[name])
     expect_in("The index says what stems could take, not what a rock loses", words)
     answer = words.replace("treatments is best for", "")  # which is the question
     expect(not re.search(r"(?i)\b(winner|best|recommended|worst option|rank)\b", answer), "a winner is named:", text)
@@ -99,12 +96,11 @@ def test_table_best():
         for order in ({"many_thin": THIN, "few_thick": THICK}, {"few_thick": THICK, "many_thin": THIN}):
             words = best_sentence(f, treated(**order))
             expect_in("Today 'few thick' lets the fewest dangerous rocks through: ", words)
-            expect("whole rotation" not in words and "Over " not in words, "a rotation of stands that do not grow", words)
+            expect("rotation" not in words and "Over " not in words, "a rotation of stands that do not grow", words)
             expect_in("The answer for 'few thick' is that of today: the file of 'thick' has no growth", words)
         options = [{"name": name, "forest": [{"from_m": 10, "to_m": 95, "stand": st}]} for name, st in (("cut", "simple-coppice"), ("grows", "ads-1"))]
         words = best_sentence(f, wooded_scene(forest=None, options=options), "-n", 50)
-        expect_in("'cut', mean over a whole rotation, years 1 to 25: ", words)
-        expect("'grows', mean" not in words, "a rotation of what is never cut", words)
+        expect(re.search(r"option mean rotation worst .* cut \d+±\d+ \d+±\d+ ", words), words)
         words = best_sentence(f, treated(none=None, many_thin=THIN))  # which hardly take anything
         expect_in("Today no option is clearly better than the others.", words)
         expect_in("All years of 'none' are alike: no stem stands in it.", words)
@@ -125,7 +121,7 @@ def test_table_best():
         mapping["controls"] = [{"x_m": 110}]
         words = best_sentence(f, mapping)
         expect_in("Today 'few thick' lets the fewest rocks through: ", words)
-        expect_in("What the place withstands is not given (accepted_kJ): energy is not judged.", words)
+        expect_in("No accepted energy is set (accepted_kJ): energy is not judged.", words)
         expect("dangerous" not in words and "by energy" not in words.lower(), words)
 
 
@@ -135,8 +131,8 @@ def test_table_of_none():
         path = f.write("s.yaml", {**treated(few_thick=THICK, none=None), "controls": [{"x_m": 110, "accepted_kJ": 1e6}]})
         rows = side_by_side(good(*WHOLE, "-n", 200, path).out, ["few thick", "none"])[1]
         half = math.ceil(1000 * 1.959963984540054**2 / (200 + 1.959963984540054**2))
-        expect_cells(rows["few thick"], f"0 ±{half}")
-        expect_cells(rows["none"], f"0 ±{half}", f"< {half}")
+        expect_cells(rows["few thick"], f"0±{half}")
+        expect(re.search(rf" 0±{half} [✔✘] +< {half} ", rows["none"]), rows)
 
 
 def test_table_best_same():

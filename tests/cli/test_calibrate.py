@@ -306,8 +306,8 @@ def test_draws():
         f.write("empty.csv", "slope.segments[0].rt\n")
         good = f.write("s.yaml", quarry(uncertainty={"draws": "good.csv", "rows": [{"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}]}))
         expect_equal(ceduo("--check", good).err, "")
-        for uncertainty, what in (({"draws": "none.csv"}, "cannot find 'none.csv' beside this file"),
-                            ({"draws": "other.csv"}, "a column 'slope.colour', which is no value of this scene"),
+        for uncertainty, what in (({"draws": "none.csv"}, "cannot find 'none.csv' next to this file"),
+                            ({"draws": "other.csv"}, "column 'slope.colour' is not a value of this scene"),
                             ({"draws": "short.csv"}, "too few columns"), ({"draws": "empty.csv"}, "the table has no row"),
                             ({"draws": ["good.csv"]}, "expected a path to a file"),
                             ({"draws": "good.csv", "row": []}, "unknown key; known here: draws, rows")):
@@ -368,17 +368,17 @@ def test_refused():
         round_rock = f.write("r.yaml", quarry(simulation={"law": "arm"}))
         checks = f.write("c.yaml", quarry({"stops": {"x_m": STOPS, "use": "check"}}))
         for what, arguments in (("is not PATH=LO:HI", [f"{RT}", path]), ("the range 0.9:0.7 is empty", [f"{RT}=0.9:0.7", path]),
-                                ("'slope.colour' is no number of these scenes", ["slope.colour=0:1", path]),
-                                ("'simulation.law' is no number of these scenes", ["simulation.law=0:1", path]),
-                                ("'simulation.seed' is no number of these scenes", ["simulation.seed=1:9", path]),
-                                ("'observed[*].n' is no number of these scenes", ["observed[*].n=1:9", path]),
+                                ("'slope.colour' is not a number of these scenes", ["slope.colour=0:1", path]),
+                                ("'simulation.law' is not a number of these scenes", ["simulation.law=0:1", path]),
+                                ("'simulation.seed' is not a number of these scenes", ["simulation.seed=1:9", path]),
+                                ("'observed[*].n' is not a number of these scenes", ["observed[*].n=1:9", path]),
                                 ("1.5 is outside the range of", [f"{RT}=0.5:1.5", path]),
-                                ("'slope.materials[talus].rn' is no number of these scenes", ["slope.materials[talus].rn=0.2:0.5", path]),
+                                ("'slope.materials[talus].rn' is not a number of these scenes", ["slope.materials[talus].rn=0.2:0.5", path]),
                                 ("are the same value", [f"{RT}=0.7:0.9", "--calibrate", "slope.segments[0].rt=0.7:0.9", path]),
-                                ("no scene says what was seen there", [f"{RT}=0.7:0.9", nothing]),
-                                ("no scene says what was seen there", [f"{RT}=0.7:0.9", checks]),
-                                ("has no part in this law; only arm knows it", [f"{MU}=0.2:1", path]),
-                                ("cannot be told from rocks of one shape", [f"{MU}=0.2:1", round_rock]),
+                                ("no scene has observations to fit", [f"{RT}=0.7:0.9", nothing]),
+                                ("no scene has observations to fit", [f"{RT}=0.7:0.9", checks]),
+                                ("has no effect in this law; only arm uses it", [f"{MU}=0.2:1", path]),
+                                ("cannot be identified from rocks of one shape", [f"{MU}=0.2:1", round_rock]),
                                 ("--check cannot be used with --calibrate", [f"{RT}=0.7:0.9", "--check", path]),
                                 ("--calibrate cannot be used with --years", [f"{RT}=0.7:0.9", "--years", path])):
             r = ceduo("--calibrate", *arguments)

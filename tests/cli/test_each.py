@@ -75,7 +75,7 @@ def test_bad_rows():
         r = ceduo("--check", "--each", "rows.csv", "s.yaml", cwd=f.path)
         expect_equal((r.status, "4 of 6 failed" in r.err), (INPUT, True), str(r))
         for text, words in (("", "empty"), ("a,a,rock.diameter_m\n1,2,1\n", "'a' is given twice"), ("slope,slope\n,\n", "'slope' is given twice"),
-                            ("id,rock.diameter_m\n", "no row below the head"), ("id,rock.diameter_m\n,\n\n", "no row below the head"),
+                            ("id,rock.diameter_m\n", "the table has no row"), ("id,rock.diameter_m\n,\n\n", "the table has no row"),
                             ("id,wkt\n1,2\n", "no column changes the scene"), ("id;x;y\n1;2;3\n", "no column changes the scene"),
                             ("'=a,=a,rock.diameter_m\n1,2,1\n", "given twice")):
             f.write("rows.csv", text)
@@ -189,12 +189,12 @@ def test_heads():
             for words in (["-f", "csv"], ["-f", "json"], ["--plot", "energy"]):
                 r = run(f, *words)
                 expect_equal((r.status, r.out), (INPUT, ""), str(r))
-                expect(r.err.startswith(f"rows.csv:1:4: '{head}' is no path of --set; write '{meant}' to set it"), r.err)
+                expect(r.err.startswith(f"rows.csv:1:4: '{head}' is not a path of --set; write '{meant}' to set it"), r.err)
         for head in ("len [m]", "Nr.", "row.scene", "rock.diameter_m.sd", "rock[0].diameter_m", "controls.x_m", "a.b", "rock.", ".rock", "rock[0"):
             f.write("rows.csv", f"id,{head},rock.mass_kg\n1,2,3\n")
             r = run(f, "-f", "csv")
             expect_equal((r.status, r.out), (INPUT, ""), str(r))
-            expect_in(f"rows.csv:1:4: '{head}' is no path of --set", r.err)
+            expect_in(f"rows.csv:1:4: '{head}' is not a path of --set", r.err)
         copied = ["id", "name", "note", "wkt", "x", "y", "year", "date", "option", "count", "n", "mean", "age", "plot", "dbh", "layer", "base", "scene"]
         f.write("rows.csv", ",".join(copied) + ",rock.density_kg_m3,slope,forest[0].stand.trees[0].per_ha,rock.diameter_m.mean,slope.vertices_m[0][1]\n"
                 + "1," * len(copied) + "2500,,,,\n")
@@ -245,7 +245,7 @@ def test_numbers():
                               [["slope={csv: 110.csv}", "title='{x}'"], ["slope=120.csv", "title='it''s: #1'"]])):
             expect_rows(f, text, [({"id": "abc"[i]}, sets) for i, sets in enumerate(wanted)])
         for text, words, left in (("id;rock.density_kg_m3\na;2.600\nb;2600\n", "rows.csv:2:3: '2.600' can be read in two ways", "id\nb\n"),
-                                  ("id;rock.density_kg_m3\na;2600,5\nb;1800.5\n", "rows.csv:3:3: '1800.5'", "id\na\n"),
+                                  ("id;rock.density_kg_m3\na;2600,5\nb;1800.5\n", "rows.csv:3:3: the decimal sign of '1800.5'", "id\na\n"),
                                   ("id,rock.density_kg_m3\na,2600\nb,26 00\n", "rows.csv:3:3: '26 00': two numbers", "id\na\n")):
             f.write("rows.csv", text)
             r = run(f, "-f", "csv", "--columns", "id")

@@ -31,7 +31,7 @@ def test_unfinished():
         expect_equal(option["controls"][0]["lights"]["energy"], "unknown", "rocks that may still arrive")
         done = ceduo("--batch", "-n", 3, path)
         expect(done.status == RUN and "unfinished" in done.out, done)
-        expect_in("what is not known was not computed", " ".join(done.out.split()), "what would take minutes")
+        expect_in("Uncertainty was not computed", " ".join(done.out.split()), "what would take minutes")
         done = ceduo(*WHOLE, "-n", 3, path)
         words = " ".join(done.out.split())
         expect_in("3 of 3 never come to an end", words)
@@ -136,14 +136,14 @@ def test_wall():
 def test_belt_beyond():
     """A belt beyond the slope is refused with its place, in the file and from the command line"""
     with Folder() as f:
-        for change, path, words in (({"to_m": 200}, "forest[0].to_m", "beyond the slope"),
-                                    ({"from_m": 170, "to_m": 200}, "forest[0]", "beyond the slope")):
+        for change, path, words in (({"to_m": 200}, "forest[0].to_m", "outside the slope"),
+                                    ({"from_m": 170, "to_m": 200}, "forest[0]", "outside the slope")):
             mapping = wooded_scene(forest=[{**belt(10, 95), **change}])
             done = ceduo("--batch", f.write("s.yaml", mapping))
             expect(done.status == INPUT and done.out == "", done)
             expect(re.search(rf"s\.yaml:\d+:\d+: {re.escape(path)}", done.err) and words in done.err and "^" in done.err, done)
         done = ceduo("--batch", "-s", "forest[0].to_m=200", f.write("s.yaml", wooded_scene()))
-        expect(done.status == USAGE and "forest[0].to_m" in done.err and "beyond the slope" in done.err, done)
+        expect(done.status == USAGE and "forest[0].to_m" in done.err and "outside the slope" in done.err, done)
 
 
 def test_fewer_shoots():

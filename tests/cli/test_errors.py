@@ -290,8 +290,8 @@ CASES = {
     "cannot read it: a device or a socket; name a file": Words("--batch", "/dev/zero", status=INPUT, start="/dev/zero: "),
     "larger than 16 MiB": Sparse("s.yaml", 16 * MEBIBYTE),
     "larger than 64 MiB": Sparse("line.csv", 64 * MEBIBYTE),
-    "cannot find 'x.yaml' beside this file or among the profiles": sc("slope: slope.yaml", "slope: @@x.yaml"),
-    "cannot find 'p.csv' beside this file or among the profiles": sl("vertices_m: " + VERTICES, "csv: @@p.csv"),
+    "cannot find 'x.yaml' next to this file or among the profiles": sc("slope: slope.yaml", "slope: @@x.yaml"),
+    "cannot find 'p.csv' next to this file or among the profiles": sl("vertices_m: " + VERTICES, "csv: @@p.csv"),
     "more than 8 files in a chain of 'base'; do they form a loop?": st("ceduo: stand/1\n", "ceduo: stand/1\nbase: @@stand.yaml\n"),
     "more than 1000 files in one scene": Text(
         "ceduo: scene/1\noptions:\n  - forest:\n" + "".join(f"    - {{stand: {i}.yaml}}\n" for i in range(1000)) +
@@ -309,14 +309,14 @@ CASES = {
     "more than 16 levels deep": sc("title: small", "title: " + "[" * 15 + "@@[" + "]" * 16),
     "a value of more than 65536 bytes; look for a missing quote": sc("title: small", "title: @@" + "x" * 65537),
     "more than 250000 values in one file; write a long profile as CSV": Text("title:\n" + "- 1\n" * 249998 + "- @@1\n" * 1),
-    "a second document; keep one to a file": sc("simulation: {", "@@---\nsimulation: {"),
+    "a second document; a file must have only one": sc("simulation: {", "@@---\nsimulation: {"),
     "not UTF-8; save the file as UTF-8": Text(b"title: \xfc\n", place="s.yaml:1:8: "),
     "a control character (\\x01); remove it": sc("title: small", "title: sm@@\x01all"),
     "a control character (\\x00); remove it": sc("title: small", 'title: @@"sm\\0all"'),
     "there is no value": Text("# nothing\n", place="s.yaml: "),
     "a scene is a mapping that begins with 'ceduo: scene/1'": Text("@@- 1\n"),
     # Keys and values
-    "'scene/2': expected 'scene/1'": sc("ceduo: scene/1", "ceduo: @@scene/2"),
+    "'scene/2': expected scene/1": sc("ceduo: scene/1", "ceduo: @@scene/2"),
     "unknown key; did you mean 'diameter_m'?": sc("diameter_m: 0.5", "@@diametre_m: 0.5"),
     "unknown key; known here: ...": sc("{x_m: 90}", "{x_m: 90, @@qqqqqqqqqqqqqqq: 1}"),
     "'rn' is missing: normal restitution Rn": sl("  - {rn: 0.35, ", "  - @@{"),
@@ -324,7 +324,7 @@ CASES = {
     "'0.8 m' is not a number": sc("diameter_m: 0.5", "diameter_m: @@0.8 m"),
     "decimal comma: write 0.8": st("dbh_m: 0.07", "dbh_m: @@0,8"),
     "'1,250' is not a number; write a dot for the decimals ...": st("dbh_m: 0.07", "dbh_m: @@1,250"),
-    "too large a number": st("per_ha: 5000", "per_ha: @@" + "9" * 400),
+    "the number is too large": st("per_ha: 5000", "per_ha: @@" + "9" * 400),
     "'10.5' is not a whole number": sc("rocks: 20", "rocks: @@10.5"),
     "-0.07 is below 0 m": st("dbh_m: 0.07", "dbh_m: @@-0.07"),
     "0 is not above 0 m": sc("diameter_m: 0.5", "diameter_m: @@0"),
@@ -340,14 +340,14 @@ CASES = {
     "expected [a, b, c]": sc(ROCK, "rock: {shape: block, axes_m: @@[1, 2]}"),
     "'kind' is missing: measured, literature, assumed or calibrated": st("source: {kind: measured, text: by hand}", "source: @@{text: by hand}"),
     "'mean' is missing: diameter of a sphere or cylinder": sc("diameter_m: 0.5}", "diameter_m: @@{spread: 0.1}}"),
-    "the spread reaches from -0.4 to 2 m, beyond what is possible": sc(
+    "with this spread the values reach from -0.4 to 2 m; reduce it to stay within the range": sc(
         "diameter_m: 0.5}", "diameter_m: @@{mean: 0.8, spread: 1.2, kind: uniform}}"),
     # Rock
     "does not belong to the shape 'block'; give the whole rock: -s ...":
         Words("--batch", "-s", "rock.shape=block", "@", start="scene.yaml:"),
     "does not belong to the shape 'sphere'; remove it": sc("diameter_m: 0.5}", "diameter_m: 0.5, height_m: @@1}"),
-    "'height_m' is missing: the shape 'cylinder' needs it": sc("rock: {shape: sphere", "rock: @@{shape: cylinder"),
-    "a sphere is given by one of diameter_m, volume_m3 and mass_kg ...": sc(ROCK, "rock: @@{shape: sphere}"),
+    "'height_m' is missing; the shape 'cylinder' needs it": sc("rock: {shape: sphere", "rock: @@{shape: cylinder"),
+    "a sphere needs one of diameter_m, volume_m3 and mass_kg ...": sc(ROCK, "rock: @@{shape: sphere}"),
     "mass_kg already says this; keep one of the two": sc(
         ROCK, "rock: {shape: block, axes_m: [1, 2, 3], mass_kg: 5, density_kg_m3: @@2600}"),
     "the rock is too small or too large to compute": sc(ROCK, "rock: @@{shape: block, axes_m: [1e-150, 1e-150, 1e-150]}"),
@@ -356,51 +356,51 @@ CASES = {
         ROCK, ROCK + "\nblocks: {per_year: 1, exponent: 1, volume_m3: @@[1]}"),
     "2 m3 is not below 1 m3; write the smaller volume first": sc(
         ROCK, ROCK + "\nblocks: {per_year: 1, exponent: 1, volume_m3: @@[2, 1]}"),
-    "the class overlaps one before it, from 1 to 3 m3; ...": sc(
+    "this class overlaps an earlier one, from 1 to 3 m3; ...": sc(
         ROCK, ROCK + "\nblocks: [{per_year: 1, volume_m3: [1, 3]}, {per_year: 1, volume_m3: @@[2, 5]}]"),
     "the list is empty": sc(ROCK, ROCK + "\nblocks: @@[]"),
-    "'exponent' is missing: the number of blocks above a volume v ...": sc(
+    "'exponent' is missing; the number of blocks above a volume v ...": sc(
         ROCK, ROCK + "\nblocks: @@{per_year: 1, volume_m3: [1, 2]}"),
     "blocks already says this; keep one of the two": sc(
         ROCK, ROCK + "\nblocks: [{per_year: 1, volume_m3: [1, 2]}]\nrocks_per_year: @@2"),
-    "blocks say how large the rocks are; remove the size, or give it without a spread": sc(
+    "'blocks' gives the sizes of rocks; remove the size here, or its spread": sc(
         ROCK, "rock: @@{diameter_m: {mean: 1, spread: 0.1}}\nblocks: [{per_year: 1, volume_m3: [1, 2]}]"),
     # Slope
-    "x 10 does not lie beyond 10; x must rise: ...": sl(VERTICES, "[[0, 64], [10, 30], @@[10, 0]]"),
-    "the profile rises, from 15 to 141.4 m, and rocks go along x: ...": sl(VERTICES, "@@[[0, 15], [100, 141.4]]"),
-    "the profile falls already, from 64 to 0 m; leave 'reversed' out": sl("facets: against", "facets: against\nreversed: @@true"),
+    "x must rise, but 10 follows 10; ...": sl(VERTICES, "[[0, 64], [10, 30], @@[10, 0]]"),
+    "the profile rises from 15 to 141.4 m, but rocks move along x; ...": sl(VERTICES, "@@[[0, 15], [100, 141.4]]"),
+    "the profile already falls from 64 to 0 m; remove 'reversed'": sl("facets: against", "facets: against\nreversed: @@true"),
     "a profile needs two points or more": sl(VERTICES, "@@[[0, 64]]"),
-    "two vertices lie too close together for their distance from the first": sl(
+    "two vertices are too close together for their distance from the first; remove one": sl(
         f"ceduo: slope/1\nname: line\nfacets: against\nvertices_m: {VERTICES}",
         "ceduo: slope/1\nname: line\nfacets: against\nvertices_m: [[-900000000, 64], [100, 30], [100.00000000000001, 0]]", at=False),
-    "'vertices_m' is missing: the profile": sl(f"vertices_m: {VERTICES}\n", "", at=False),
+    "'vertices_m' is missing; give the profile, or a table in 'csv'": sl(f"vertices_m: {VERTICES}\n", "", at=False),
     "vertices_m already says this; keep one of the two": sl("facets: against", "csv: @@line.csv"),
-    "'segments' or 'materials' is missing: the ground": sl(MATERIALS, "", at=False),
+    "'segments' or 'materials' is missing; give the ground": sl(MATERIALS, "", at=False),
     "segments already says this; keep one of the two": sl(
         "segments:\n", "materials: @@[{from_m: 0, to_m: 100, material: talus}]\nsegments:\n"),
     "3 segments for 2 stretches between vertices; ...": sl("  - {rn: 0.31", "  - {rn: 0.31, rt: 0.8}\n  - {rn: 0.31", at=False),
     "roughness_rad already says this; keep one of the two": sl("roughness_m: 0.1", "roughness_rad: 0.1, roughness_m: @@0.1"),
-    "50 leaves a gap or overlaps; it must begin at 40": sl(
+    "50 leaves a gap or an overlap; begin at 40": sl(
         MATERIALS, "materials: [{from_m: 0, to_m: 40, material: talus}, {from_m: @@50, to_m: 100, material: talus}]\n"),
-    "40 ends before the profile, at 100": sl(MATERIALS, "materials: [{from_m: 0, to_m: @@40, material: talus}]\n"),
-    "-1 does not lie beyond from_m, 0": sl(MATERIALS, "materials: [{from_m: 0, to_m: @@-1, material: talus}]\n"),
+    "40 is before the end of the profile, 100; extend the last row": sl(MATERIALS, "materials: [{from_m: 0, to_m: @@40, material: talus}]\n"),
+    "the end (-1) must lie beyond the start (0)": sl(MATERIALS, "materials: [{from_m: 0, to_m: @@-1, material: talus}]\n"),
     "the first line must name the columns 'distance' and 'elevation'": csv("a,64\n100,0\n", "line.csv:1:1: "),
     "too few columns": csv("distance,elevation\n0,64\n50\n100,0\n", "line.csv:3:1: "),
     "a value is missing; remove the line": csv("distance,elevation\n0,64\n50,\n100,0\n", "line.csv:3:4: "),
-    "'1.000,5': decimals stand after a dot on line 2; write all numbers in the same way": csv("distance;elevation\n0;6.4\n1.000,5;0\n", "line.csv:3:1: "),
-    "distance 5 does not lie beyond 10; distances must rise: sort the rows by distance": csv("distance,elevation\n0,64\n10,30\n5,40\n20,10\n", "line.csv:4:1: "),
-    "beyond 1e+09 m": csv("distance,elevation\n0,64\n100,-1e10\n", "line.csv:3:5: "),
+    "the decimal sign of '1.000,5' is not the dot of line 2; use one sign in the whole table": csv("distance;elevation\n0;6.4\n1.000,5;0\n", "line.csv:3:1: "),
+    "distances must rise, but 5 follows 10; sort the rows by distance": csv("distance,elevation\n0,64\n10,30\n5,40\n20,10\n", "line.csv:4:1: "),
+    "-1e10 is outside the range -1e+09 to 1e+09 m": csv("distance,elevation\n0,64\n100,-1e10\n", "line.csv:3:5: "),
     "the file is empty": csv("", "line.csv: "),
     # Release, controls, forest
-    "100 lies beyond the slope; a release may be anywhere from ...": sc("{x_m: 5, h", "{x_m: @@100, h"),
-    "900 lies beyond the slope, which goes from 0 to 100 m": sc("{x_m: 90}", "{x_m: @@900}"),
-    "-10 lies beyond the slope, which goes from 0 to 100 m": sc("  - from_m: 10\n", "  - from_m: @@-10\n"),
-    "0 does not lie beyond the release, 0 m": sc("x_m: 5, height_m: 0, vx_m_s: 1}\nslope: slope.yaml\ncontrols:\n  - {x_m: 75",
+    "100 lies outside the slope; a release must be at least ...": sc("{x_m: 5, h", "{x_m: @@100, h"),
+    "900 lies outside the slope, which goes from 0 to 100 m": sc("{x_m: 90}", "{x_m: @@900}"),
+    "-10 lies outside the slope, which goes from 0 to 100 m": sc("  - from_m: 10\n", "  - from_m: @@-10\n"),
+    "0 must lie beyond the release (0 m)": sc("x_m: 5, height_m: 0, vx_m_s: 1}\nslope: slope.yaml\ncontrols:\n  - {x_m: 75",
                                                  "x_m: 0}\nslope: slope.yaml\ncontrols:\n  - {x_m: @@0"),
     "'90' is given twice": sc("{x_m: 75, name", "{x_m: 90, name", at=False),
     "controls already says this; keep one of the two": sc("forest:\n", "controls_m: @@[80]\nforest:\n"),
     "forest already says this; keep one of the two": sc("simulation: {", "options: @@[{name: a}]\nsimulation: {"),
-    "'controls' is missing: name at least one place ...": sc(
+    "'controls' is missing; give at least one place ...": sc(
         "controls:\n  - {x_m: 75, name: road, accepted_kJ: 50}\n  - {x_m: 90}\n", "", at=False),
     "the list is empty": sl(MATERIALS, "materials: @@[]\n"),
     "1001 items; at most 1000 can be computed": sc(
@@ -409,25 +409,25 @@ CASES = {
     "'a' is given twice": Text(
         SCENE.split("forest:")[0].replace("slope.yaml", "{vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}") +
         "options: [{name: a}, {name: @@a}]\n"),
-    "10 lies before the end of the belt before it, 20; belts must not overlap": sc(
+    "belts must not overlap, but this one begins at 10 and the previous one ends at 20": sc(
         "to_m: 40\n    stand: stand.yaml\n  - {from_m: 40", "to_m: 20\n    stand: stand.yaml\n  - {from_m: @@10"),
-    "8 does not lie beyond from_m, 10": sc("    to_m: 40\n", "    to_m: @@8\n"),
+    "the end (8) must lie beyond the start (10)": sc("    to_m: 40\n", "    to_m: @@8\n"),
     "shoots without stools; ...": st("stools: {per_ha: 2000, spacing_m: 0.25}\n", "", at=False),
     "stools without shoots; ...": st("shoots:\n  - per_ha: 5000\n    dbh_m: 0.07\n    height_m: 6\n", "", at=False),
-    "6000 shoots on 7000 stools: a stool has one shoot at least": st(
+    "6000 shoots are too few for 7000 stools; each stool needs one": st(
         "stools: {per_ha: 2000, spacing_m: 0.25}\nshoots:\n  - per_ha: 5000",
         "stools: {per_ha: @@7000, spacing_m: 0.25}\nshoots:\n  - per_ha: 6000"),
-    "'bare', but there are stems; name the system or remove them": st("system: simple-coppice", "system: @@bare"),
-    "'energy_kJ' is missing: nothing is assumed here": Set(
+    "'bare' has no stems; name the system, or remove the stems": st("system: simple-coppice", "system: @@bare"),
+    "'energy_kJ' is missing; it has no default": Set(
         "forest[0].stand.stumps=@@{per_ha: 300, diameter_m: 0.3, height_m: 0.2}"),
-    "'length_m' is missing: nothing is assumed here": Set(
+    "'length_m' is missing; it has no default": Set(
         "forest[0].stand.logs=@@{per_ha: 30, diameter_m: 0.1, energy_kJ: 2}"),
-    "'radius_m' is missing: nothing is assumed here": Set(
+    "'radius_m' is missing; it has no default": Set(
         "forest[0].stand.trees=[{per_ha: 50, dbh_m: 0.2, height_m: 12, groups: @@{stems: 5}}]"),
     # Changes by --set
     "--set:1:18: there is no value": Set("release.height_m=@@"),
     "rocks_per_year: '5%' is not a number; write 0.05": Set("rocks_per_year=@@5%"),
-    "'#' begins a comment; between quotes it is text: title=\"#1\"": Set("title=@@#1"),
+    "'#' is special in YAML; write the text in quotes: title=\"#1\"": Set("title=@@#1"),
     "expected PATH=VALUE": Set("@@rock.diameter_m"),
     "malformed path; keys are joined by '.', items are [0] or [name]": Set("rock@@..diameter_m=1"),
     "'diameter': unknown key; did you mean 'diameter_m'?": Set("rock.@@diameter=1"),
@@ -437,10 +437,10 @@ CASES = {
     "'0': there is no list here": Set("rock[@@0]=1"),
     "'from_m': there is no mapping here": Set("forest.@@from_m=1"),
     "there is no 'trees' here": Set("forest[1].stand=bare", "forest[1].stand.@@trees[0].per_ha=1"),
-    "'#' begins a comment; between quotes it is text: title=\"x #1\"": Set("title=@@x #1"),
-    "': ' makes a mapping; between quotes it is text: title=\"a: b\"": Set("title=@@a: b"),
+    "'#' is special in YAML; write the text in quotes: title=\"x #1\"": Set("title=@@x #1"),
+    "': ' is special in YAML; write the text in quotes: title=\"a: b\"": Set("title=@@a: b"),
     "there is no 'blocks' here": Set("@@blocks.per_year=3"),
-    "this scene has options: write options[0].forest[0].to_m, ...": Words(
+    "this scene has options; write options[0].forest[0].to_m, ...": Words(
         "--batch", "-s", "forest[0].to_m=50", "four-systems", start="--set:1:1: "),
     "the scene is valid without this change, but not with it:": Set("forest[0].to_m=@@50"),
     # Usage
@@ -473,7 +473,7 @@ CASES = {
     "--size: '80' is not COLUMNSxLINES, such as '80x24'": Words("--plot", "stand", "--size", "80", "@"),
     "--size: 10x5 is outside 20x6 to 1000x500": Words("--plot", "stand", "--size", "10x5", "@"),
     "--years: '5' is not A:B[:STEP], such as '0:25'": Words("--years", "5", "@"),
-    "--years: 0:5000: expected at most 1000 years of 0 (the stand as filed) to 100000": lambda row: [
+    "--years: 0:5000: give at most 1000 years between 0 (the stand in the file) and 100000": lambda row: [
         Words(f"--years={words}", "@")(row.replace("0:5000", words)) for words in ("0:5000", "-5:-1", "9:1", "5:100001")],
     "--find: 'x' is not PATH=LO:HI, such as ...": Words("--find", "x", "--goal", "adc", "@"),
     "--find: the range 9:1 is empty; HI must be above LO": Words("--find", "a=9:1", "--goal", "adc", "@"),
@@ -499,7 +499,7 @@ CASES = {
         Words(*words, "--option", "x", "@")(row.replace("mine", "scene")) for words in (
             ("--batch",), ("--check",), ("--find", "rock.diameter_m=1:2", "--goal", "adc"))],
     # Surveys
-    "750 cm: more than 300 cm; is it in mm?": Elsewhere("tests/cli/test_survey.py", "def test_thick"),
+    "750 cm is more than 300 cm; ...": Elsewhere("tests/cli/test_survey.py", "def test_thick"),
     # Scripts
     "key, type, resize, wait idle, dump, roles or draw is wanted: x": Script("# first\nx\n", 2),
     "no such key: x": Script("key Enter\nkey j x!\n".replace("x!", "xx"), 2),
@@ -512,7 +512,7 @@ CASES = {
     "x, 90 m: whether 50 of 1000 rocks at most arrive with too much energy is too close to call; ... (in the result)":
         Elsewhere("tests/cli/test_table.py", "def test_table_close_call"),
     "--output: name a file (status 4)": Words("--batch", "-o", "", "@", status=OUTPUT, start="--output: "),
-    "scene.yaml: it is read in this run; write elsewhere (status 4)": Words(
+    "scene.yaml: this file is an input of the run; write elsewhere (status 4)": Words(
         "--batch", "-o", "scene.yaml", "@", status=OUTPUT, start="scene.yaml: "),
     "standard output: No space left on device (status 4)": full,
     "out.csv: Permission denied (status 4)": lambda row: as_nobody(row, "--batch", "-f", "csv", "-o", "out.csv", "scene.yaml",
@@ -546,7 +546,7 @@ FLOODS = [
     # (what, scene and its CSV as functions: made when needed, for what the test holds counts as the program's; words)
     ("a million CSV rows that are no numbers", lambda: NAMED, lambda: "distance,elevation\n" + "x,1\n" * 1000000,
      "999 more of this kind, on line 3, 4, 5, 6, 7 …\n999000 more problems"),
-    (f"{LARGE} MiB of blank CSV lines", lambda: NAMED.replace("75", "175"), lambda: LINE + "\n" * (LARGE << 20), "beyond the slope"),
+    (f"{LARGE} MiB of blank CSV lines", lambda: NAMED.replace("75", "175"), lambda: LINE + "\n" * (LARGE << 20), "outside the slope"),
     (f"a CSV field of {LARGE} MiB", lambda: NAMED, lambda: LINE + "5" * (LARGE << 20) + ",1", "line.csv:4:1: '…' is not a number"),
     ("a CSV header of 300000 columns", lambda: NAMED, lambda: "distance" + ",c" * 300000 + ",elevation\n0,64\n100,0\n",
      "too few columns"),

@@ -98,7 +98,7 @@ def test_first_characters():
         expect_equal(told, f"{path}:1:1: the first line must name the columns 'distance' and 'elevation'")
         expect_equal((line, caret), (f"  {FIRST[:20]}… {WHY}", "  ^"))
         done = ceduo("--check", f.write("s.yaml", scene(uncertainty={"draws": str(path)})))
-        expect_in(f"the table has a column '{FIRST[:20]}', which is no value", done.err)
+        expect_in(f"the column '{FIRST[:20]}' is not a value", done.err)
         path = f.write("long.yaml", "alpha: 1\nbeta: {gamma: 1, delta: 2, rest: 3}\nrock: 5\n")
         lines = ceduo("--check", path).err.splitlines()
         expect_equal(lines[:3], [f"{path}:1:1: unknown key; known here: …", "  alpha: 1", "  ^"])
@@ -145,7 +145,7 @@ def test_without_a_word_still_good():
         expect_equal(ceduo("--check", path).err, "")
         gap = [{"from_m": 0, "to_m": 40, "material": "talus"}, {"from_m": 50, "to_m": 100, "material": "cliff"}]
         f.write("line.yaml", {"vertices_m": [[0, 64], [100, 0]], "materials": gap})
-        expect_in(": materials[1].from_m: … leaves a gap or overlaps; it must begin at …\n", ceduo("--check", path).err)
+        expect_in(": materials[1].from_m: … leaves a gap or an overlap; begin at …\n", ceduo("--check", path).err)
         f.write("line.yaml", {"vertices_m": [[0, 64], [100, 0]], "segments": 5})
         expect_in(": segments: expected a list, not a single value\n", ceduo("--check", path).err)
 

@@ -62,8 +62,8 @@ def test_csv_of_offices():
 
 
 OTHER = [  # what a GPS or a drawing program writes, and how it is called
-    ('<?xml version="1.0"?>\n<gpx version="1.1"><trk><trkseg><trkpt lat="43" lon="12"/></trkseg></trk></gpx>\n', "GPX is no profile"),
-    ('<?xml version="1.0"?>\n<LandXML version="1.2"/>\n', "LandXML is no profile"), ("<a/>\n", "XML is no profile"),
+    ('<?xml version="1.0"?>\n<gpx version="1.1"><trk><trkseg><trkpt lat="43" lon="12"/></trkseg></trk></gpx>\n', "GPX is not a profile"),
+    ('<?xml version="1.0"?>\n<LandXML version="1.2"/>\n', "LandXML is not a profile"), ("<a/>\n", "XML is not a profile"),
     ("x,y,z\n12.1,43.1,300\n12.1001,43.1,200\n", "x and y must be in metres, not in degrees"),
     ("x,y,z\n1,1,300\n1,1,200\n", "all points lie at the same distance"),
     ("\ufeffdistance;elevation\n\udc00;1\n".encode("utf-16-le", "surrogatepass"), "broken UTF-16"),
@@ -86,7 +86,7 @@ def test_no_table():
                 expect_in(words, done.err, content)
                 expect_equal("degrees" in done.err, "degrees" in words, done.err)
                 expect_equal(done.status, 3)
-                expect("is no profile" not in words or "Elevation Profile" in done.err, done.err)
+                expect("is not a profile" not in words or "Elevation Profile" in done.err, done.err)
 
 
 CSV_CASES = [
@@ -97,20 +97,20 @@ CSV_CASES = [
     ("distance,elevation\n0,64\n50,\n100,0\n", (3, 4), "missing"), ("distance,elevation\n0,64\n,30\n100,0\n", (3, 1), "missing"),
     ("distance,elevation\n0,64\n50\n100,0\n", (3, None), "too few"), ("elevation,distance\n64,0\n30\n0,100\n", (3, None), "too few"),
     ("x,z,y\n0,64,0\n30,30\n60,0,80\n", (3, None), "too few"), ("x,y,z\n0,0,64\n30,b,30\n60,80,0\n", (3, 4), "'b' is not a number"),
-    ("distance;elevation\n0;64.5\n50;1.030,5\n100;0\n", (3, 4), "decimals stand after a dot on line 2"),
-    ("distance;elevation\n0;64,5\n50.5;30\n100;0\n", (3, 1), "decimals stand after a comma on line 2"),
-    ("distance;elevation\n0;64.5\n50,5;30\n100;0\n", (3, 1), "decimals stand after a dot on line 2"),
-    ("distance,elevation\n0,64\n50,30\n40,0\n", (4, 1), "distance 40 does not lie beyond 50"),
+    ("distance;elevation\n0;64.5\n50;1.030,5\n100;0\n", (3, 4), "is not the dot of line 2"),
+    ("distance;elevation\n0;64,5\n50.5;30\n100;0\n", (3, 1), "is not the comma of line 2"),
+    ("distance;elevation\n0;64.5\n50,5;30\n100;0\n", (3, 1), "is not the dot of line 2"),
+    ("distance,elevation\n0,64\n50,30\n40,0\n", (4, 1), "40 follows 50"),
     ("distance,elevation\n0,64\n50,30\n50,64\n45,20\n", (5, 1), "must rise"),
     ("distance,elevation\n0,64\n50,abc\n100,0\n", (3, 4), "'abc' is not a number"),
-    ("distance,elevation\n0,64\n50,nan\n100,0\n", (3, 4), "'nan' is no height"),
-    ("distance,elevation\n0,64\n50,NULL\n100,0\n", (3, 4), "'NULL' is no height"),
-    ("distance,elevation\n0,64\n50,-\n100,0\n", (3, 4), "'-' is no height"),
+    ("distance,elevation\n0,64\n50,nan\n100,0\n", (3, 4), "'nan' is not a height"),
+    ("distance,elevation\n0,64\n50,NULL\n100,0\n", (3, 4), "'NULL' is not a height"),
+    ("distance,elevation\n0,64\n50,-\n100,0\n", (3, 4), "'-' is not a height"),
     ("distance,elevation\n0,64\n50,1e999\n100,0\n", (3, 4), "no data"),
-    ("distance,elevation\n0,64\n50,1e10\n100,0\n", (3, 4), "beyond"),
-    ("distance,elevation\n0,64\n50,-9999999999\n100,0\n", (3, 4), "beyond"),
+    ("distance,elevation\n0,64\n50,1e10\n100,0\n", (3, 4), "is outside the range"),
+    ("distance,elevation\n0,64\n50,-9999999999\n100,0\n", (3, 4), "is outside the range"),
     ("distance,elevation\n0,64\n50,0x10\n100,0\n", (3, 4), "'0x10' is not a number"),
-    ("distance,elevation\n0,64\n50,\x1b[31m\n100,0\n", (3, 4), "the character U+001B cannot be meant"),
+    ("distance,elevation\n0,64\n50,\x1b[31m\n100,0\n", (3, 4), "the number contains the invisible character U+001B"),
     ("distance,elevation\n0,64\n50,\x00\n100,0\n", None, "NUL byte (U+0000) on line 3"),
     ("distance,elevation\n0,64\n50," + "9" * 1000 + "\n100,0\n", (3, 4), ""),
     ("distance,elevation,distance\n0,64,1\n50,30,2\n100,0,3\n", (1, None), "distance"),

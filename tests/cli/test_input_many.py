@@ -40,7 +40,7 @@ def test_kinds():
     more = ", ".join(str(first + i) for i in range(1, 6))
     expect_equal(told, [f"s.yaml:{first + 1}:28: controls[1].accepted_kJ: -5 is below 0 kJ", f"  and 1 more of this kind, on line {first + 2}",
                         f"s.yaml:{first + 4}:28: controls[4].accepted_kJ: 'x' is not a number",
-                        f"s.yaml:{first}:11: controls[0].x_m: -1 lies beyond the slope, which goes from 0 to 100 m",
+                        f"s.yaml:{first}:11: controls[0].x_m: -1 lies outside the slope, which goes from 0 to 100 m",
                         f"  and 6 more of this kind, on line {more} …"])
 
 
@@ -97,13 +97,13 @@ def test_all_without_reference():
     told("ceduo: scene/1\nrock: {diameter_m: -1}\n" + GROUND + "controls: [{x_m: 900}, {x_m: a}]\nforest:\n"
          "  - {from_m: 10, to_m: 40, stand: nowhere}\n  - {from_m: 30, to_m: 70, stand: {base: nothing, shoots: [{per_ha: -7}]}}\n",
          "cannot find 'nowhere'", "cannot find 'nothing'",
-         "rock.diameter_m: -1", "controls[0].x_m: 900 lies beyond", "controls[1].x_m: 'a'",
-         "forest[1].from_m: 30 lies before the end", "shoots[0].per_ha: -7")
+         "rock.diameter_m: -1", "controls[0].x_m: 900 lies outside", "controls[1].x_m: 'a'",
+         "forest[1].from_m: belts must not overlap", "shoots[0].per_ha: -7")
     told("ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: nowhere\ncontrols: [{x_m: 5}, {x_m: 5}]\n"
          "forest: [{from_m: 40, to_m: 10, stand: stand.yaml}]\n",
-         "cannot find 'nowhere'", "controls[1].x_m: '5' is given twice", "forest[0].to_m: 10 does not lie beyond from_m")
+         "cannot find 'nowhere'", "controls[1].x_m: '5' is given twice", "forest[0].to_m: the end (10) must lie beyond the start")
     told(HEAD + "controls_m: [75]\nforest: [{from_m: 10, to_m: 40, stand: bad.yaml}, {from_m: 40, to_m: 30, stand: bad.yaml}]\n",
-         "malformed YAML", "forest[1].to_m: 30 does not lie beyond", more={"bad.yaml": "name: [\n"})
+         "malformed YAML", "forest[1].to_m: the end (30) must lie beyond", more={"bad.yaml": "name: [\n"})
 
 
 def test_all_with_values():
@@ -116,15 +116,15 @@ def test_all_with_values():
          "forest: [{from_m: 10, to_m: x, stand: {stools: {per_ha: 9}, shoots: [{per_ha: 5, dbh_m: 1, height_m: 1}]}}, "
          "{from_m: 9, to_m: 8, stand: {shoots: [{per_ha: 5, dbh_m: 0, height_m: 1}]}}]\n",
          "rock.shape: 'cube'", "release.x_m: 'b'", "release.height_m: -1", "slope.vertices_m[1]: expected [x, z]",
-         "slope.vertices_m[3]: x 30 does not lie beyond 40", "2 segments for 3 stretches", "segments[0].rn: 2", "'rt' is missing",
+         "slope.vertices_m[3]: x must rise, but 30 follows 40", "2 segments for 3 stretches", "segments[0].rn: 2", "'rt' is missing",
          "slope.materials: segments already says this", "controls[1].x_m: '9' is given twice", "controls[1].accepted_kJ: -1", "to_m: 'x'",
-         "'spacing_m' is missing", "5 shoots on 9 stools", "forest[1].to_m: 8 does not lie", "shoots without stools",
+         "'spacing_m' is missing", "5 shoots are too few for 9 stools", "forest[1].to_m: the end (8) must lie", "shoots without stools",
          "dbh_m: 0 is not above")
     told(HEAD + "release: {x_m: 99, vx_m_s: y}\ncontrols_m: [z, 75, 200, 75]\n"
          "forest: [{from_m: -5, to_m: 200, stand: stand.yaml}]\n",
-         "release.vx_m_s: 'y'", "controls_m[0]: 'z'", "controls_m[1]: 75 does not lie beyond the release",
-         "and 1 more of this kind, on line 5", "controls_m[2]: 200 lies beyond", "forest[0].from_m: -5 lies beyond",
-         "forest[0].to_m: 200 lies beyond the slope")
+         "release.vx_m_s: 'y'", "controls_m[0]: 'z'", "controls_m[1]: 75 must lie beyond the release",
+         "and 1 more of this kind, on line 5", "controls_m[2]: 200 lies outside", "forest[0].from_m: -5 lies outside",
+         "forest[0].to_m: 200 lies outside the slope")
     told("ceduo: scene/1\nrock: {}\nslope: {vertices_m: [[0, 9], [9, 0]], materials: [{from_m: 0, to_m: 4, material: sand}, "
          "{from_m: 5, to_m: 8, material: talus}]}\noptions: [{name: a}, {forest: b}, {name: a}]\n",
          "one of diameter_m, volume_m3 and mass_kg", "'sand' is unknown", "materials[1].from_m: 5 leaves a gap",
@@ -231,11 +231,11 @@ def test_materials():
     """Materials must cover the slope without gap or overlap, from the library"""
     def row(a, b, name="talus"):
         return {"from_m": a, "to_m": b, "material": name}
-    for rows, words in (([row(0, 40), row(50, 100)], "materials[1].from_m: 50 leaves a gap or overlaps; it must begin at 40"),
-                        ([row(0, 40), row(30, 100)], "materials[1].from_m: 30 leaves a gap or overlaps"),
+    for rows, words in (([row(0, 40), row(50, 100)], "materials[1].from_m: 50 leaves a gap or an overlap; begin at 40"),
+                        ([row(0, 40), row(30, 100)], "materials[1].from_m: 30 leaves a gap or an overlap"),
                         ([row(10, 100)], "materials[0].from_m: 10 leaves a gap"),
-                        ([row(0, 90)], "materials[0].to_m: 90 ends before the profile, at 100"),
-                        ([row(40, 40)], "materials[0].to_m: 40 does not lie beyond from_m"),
+                        ([row(0, 90)], "materials[0].to_m: 90 is before the end of the profile, 100"),
+                        ([row(40, 40)], "materials[0].to_m: the end (40) must lie beyond the start"),
                         ([row(0, 100, "lava")], "'lava' is unknown"), ([], "the list is empty")):
         materials_refused(rows, words)
     with Folder() as f:

@@ -142,7 +142,7 @@ def test_list_profiles():
         expect_equal(result("mine", "-n", 1, env=env, cwd="/")["title"], "my \x07 own")
         done = ceduo("--batch", "mien", env=env, cwd="/")
         expect(done.status == INPUT and re.search(
-            rf"did you mean 'mine'\? \(looked for here and in {f.path}/ceduo/scenes, .*{PROFILES.name}/scenes", done.err), done)
+            rf"did you mean 'mine'\? \(searched here and in {f.path}/ceduo/scenes, .*{PROFILES.name}/scenes", done.err), done)
     expect_equal(result("paper-site", cwd="/")["title"], "Test site of Ciabocco et al. 2009")
     expect_equal(result("paper-site.yaml", cwd="/")["title"], "Test site of Ciabocco et al. 2009")
 

@@ -71,7 +71,7 @@ def test_kinds():
     refused("observed[0].speed.n: 0 is below 1", [{"speed": {"x_m": 50, "mean": 3, "sd": 1, "n": 0}}])
     refused("observed[0].passed.of: 0 is below 1", [{"passed": {"x_m": 50, "count": 0, "of": 0}}])
     refused("observed[0].stops.x_m: the list is empty", [{"stops": {"x_m": []}}])
-    refused("say what was seen", [{"use": "fit"}])
+    refused("no observation; give one of", [{"use": "fit"}])
     refused("unknown key", [{"stop": {"x_m": [40]}}])
     refused("-1 is below 0", [{"height": {"x_m": 50, "values": [2, -1]}}])
 
@@ -111,25 +111,25 @@ def test_values():
 def test_places():
     """What lies off the profile, before the release or where nobody looked"""
     refused("s.yaml:", [{"stops": {"x_m": [40, 120]}}])
-    refused("120 lies beyond the slope, which goes from 0 to 100 m", [{"stops": {"x_m": [40, 120]}}])
-    refused("-3 lies beyond the slope", {"stops": {"x_m": [-3, 40]}})
-    refused("40 lies before seen_from_m, 45", {"stops": {"x_m": [40], "seen_from_m": 45}})
-    refused("300 lies beyond the slope", {"stops": {"x_m": [40], "seen_from_m": 300}})
-    refused("does not lie beyond the release, 0 m", {"passed": {"x_m": 0, "count": 1, "of": 2}})
-    refused("does not lie beyond the release, 60 m", {"passed": {"x_m": 50, "count": 1, "of": 2, "release": {"x_m": 60}}})
-    refused("20 does not lie beyond from_m, 40", {"scars": {"from_m": 40, "to_m": 20, "height_m": [1]}})
-    refused("20 does not lie beyond from_m, 40", {"on_the_way": {"from_m": 40, "to_m": 20, "speed_m_s": {"values": [1]}}})
+    refused("120 lies outside the slope, which goes from 0 to 100 m", [{"stops": {"x_m": [40, 120]}}])
+    refused("-3 lies outside the slope", {"stops": {"x_m": [-3, 40]}})
+    refused("40 lies before the begin of the searched area (45)", {"stops": {"x_m": [40], "seen_from_m": 45}})
+    refused("300 lies outside the slope", {"stops": {"x_m": [40], "seen_from_m": 300}})
+    refused("must lie beyond the release (0 m", {"passed": {"x_m": 0, "count": 1, "of": 2}})
+    refused("must lie beyond the release (60 m", {"passed": {"x_m": 50, "count": 1, "of": 2, "release": {"x_m": 60}}})
+    refused("the end (20) must lie beyond the start (40)", {"scars": {"from_m": 40, "to_m": 20, "height_m": [1]}})
+    refused("the end (20) must lie beyond the start (40)", {"on_the_way": {"from_m": 40, "to_m": 20, "speed_m_s": {"values": [1]}}})
     accepted({"stops": {"x_m": [0, 100], "seen_from_m": 0}})  # both ends are the slope's
     accepted({"passed": {"x_m": 100, "count": 1, "of": 2}})
     accepted({"on_the_way": {"from_m": 0, "to_m": 100, "speed_m_s": {"values": [1]}}})
-    refused("100.00001 lies beyond the slope", {"passed": {"x_m": 100.00001, "count": 1, "of": 2}})
-    refused("beyond the slope", {"on_the_way": {"from_m": 40, "to_m": 200, "speed_m_s": {"values": [1]}}})
+    refused("100.00001 lies outside the slope", {"passed": {"x_m": 100.00001, "count": 1, "of": 2}})
+    refused("outside the slope", {"on_the_way": {"from_m": 40, "to_m": 200, "speed_m_s": {"values": [1]}}})
 
 
 def test_counts():
     """More seen than released; names and options"""
-    refused("observed[0].stops.of: 3 were seen of 2 released", [{"stops": {"x_m": [40, 50, 60], "of": 2}}])
-    refused("9 were seen of 8 released", {"passed": {"x_m": 50, "count": 9, "of": 8}})
+    refused("observed[0].stops.of: 3 observed, but only 2 released; correct one", [{"stops": {"x_m": [40, 50, 60], "of": 2}}])
+    refused("9 observed, but only 8 released; correct one", {"passed": {"x_m": 50, "count": 9, "of": 8}})
     refused("'a' is given twice", [{**STOPS, "name": "a"}, {**STOPS, "name": "a"}])
     refused("the scene has no option 'cut'; it has: current", [{**STOPS, "option": "cut"}])
     refused("'fitted' is unknown; did you mean 'fit'?", [{**STOPS, "use": "fitted"}])
@@ -138,11 +138,11 @@ def test_counts():
 def test_rocks():
     """A rock and a release of its own; what the release does not say is as in the scene"""
     accepted([{**STOPS, "rock": {"shape": "block", "axes_m": [0.4, 0.3, 0.2], "mass_kg": 60}}])
-    refused("a sphere is given by one of", [{**STOPS, "rock": {"density_kg_m3": 2500}}])
+    refused("a sphere needs one of", [{**STOPS, "rock": {"density_kg_m3": 2500}}])
     refused("does not belong to the shape 'sphere'", [{**STOPS, "rock": {"diameter_m": 1, "height_m": 2}}])
-    refused("release: 500 lies beyond the slope".replace("release: ", "release.x_m: "), [{**STOPS, "release": {"x_m": 500}}])
+    refused("release: 500 lies outside the slope".replace("release: ", "release.x_m: "), [{**STOPS, "release": {"x_m": 500}}])
     accepted([{"passed": {"x_m": 40, "count": 1, "of": 2}, "release": {"vx_m_s": 3}}], release={"x_m": 30, "height_m": 1})
-    refused("does not lie beyond the release, 30 m", [{"passed": {"x_m": 20, "count": 1, "of": 2}, "release": {"vx_m_s": 3}}],
+    refused("must lie beyond the release (30 m", [{"passed": {"x_m": 20, "count": 1, "of": 2}, "release": {"vx_m_s": 3}}],
             release={"x_m": 30, "height_m": 1})
 
 
@@ -155,20 +155,20 @@ def test_tables():
     accepted({"stops": {"csv": "stops.csv", "of": 2}}, ("stops.csv", "where\n40\n41,5\n".replace(",", ".")))
     accepted({"stops": {"csv": "stops.csv", "column": "x"}}, ("stops.csv", "id;x\n1;40,5\n2;41,5\n"))
     accepted({"stops": {"csv": "stops.csv", "of": 2}}, ("stops.csv", "id;x\n1;40\n;\n \t,\n2;50\n"))
-    refused("3 were seen of 2 released", {"stops": {"csv": "stops.csv", "only": "block=a", "of": 2}}, table)
+    refused("3 observed, but only 2 released; correct one", {"stops": {"csv": "stops.csv", "only": "block=a", "of": 2}}, table)
     refused("the table has no column 'length'; it has: id, Distance, block", {"stops": {"csv": "stops.csv", "column": "length"}}, table)
-    refused("name the column that holds the values (column); the table has: a, b", {"stops": {"csv": "t.csv"}}, ("t.csv", "a,b\n1,2\n"))
-    refused("the table has this column twice", {"stops": {"csv": "t.csv", "column": "a"}}, ("t.csv", "a,a\n1,2\n"))
-    refused("the table has no such row", {"stops": {"csv": "stops.csv", "only": "block=z"}}, table)
+    refused("name the column with the values in 'column'; the table has: a, b", {"stops": {"csv": "t.csv"}}, ("t.csv", "a,b\n1,2\n"))
+    refused("t.csv:1:1: the column 'a' occurs twice", {"stops": {"csv": "t.csv", "column": "a"}}, ("t.csv", "a,a\n1,2\n"))
+    refused("no row of the table matches", {"stops": {"csv": "stops.csv", "only": "block=z"}}, table)
     refused("is not COLUMN=WORD", {"stops": {"csv": "stops.csv", "only": "block"}}, table)
     refused("the table has no column 'rock'", {"stops": {"csv": "stops.csv", "only": "rock=1"}}, table)
     refused("stops.csv:3:3: 'far' is not a number", {"stops": {"csv": "stops.csv"}}, ("stops.csv", "id,x\n1,40\n2,far\n"))
     refused("stops.csv:3:1: too few columns", {"stops": {"csv": "stops.csv"}}, ("stops.csv", "id,x\n1,40\n2\n"))
-    refused("cannot find 'none.csv' beside this file", {"stops": {"csv": "none.csv"}})
+    refused("cannot find 'none.csv' next to this file", {"stops": {"csv": "none.csv"}})
     refused("the file is empty", {"stops": {"csv": "stops.csv"}}, ("stops.csv", ""))
     refused("x_m already says this; keep one of the two", {"stops": {"csv": "stops.csv", "x_m": [40]}}, table)
-    refused("names something of a table", {"stops": {"x_m": [40], "column": "a"}})
-    refused("120 lies beyond the slope", {"stops": {"csv": "stops.csv"}}, ("stops.csv", "x\n120\n"))
+    refused("this needs a table", {"stops": {"x_m": [40], "column": "a"}})
+    refused("120 lies outside the slope", {"stops": {"csv": "stops.csv"}}, ("stops.csv", "x\n120\n"))
     refused("-2 is below 0", {"speed": {"x_m": 50, "csv": "v.csv"}}, ("v.csv", "speed\n4\n-2\n"))
     accepted({"speed": {"x_m": 50, "values": "v.csv", "column": "v"}}, ("v.csv", "t,v\n1,4\n2,5\n"))
 
@@ -203,10 +203,10 @@ def test_tables_of_offices():
     plan = "id,x_m,y_m,runout_m\n1,700040,4800000,40.5\n2,700051,4800003,51.25\n3,700047,4800001,47\n4,700066,4800009,66\n"
     for head in ("id,x_m,y_m,runout_m", "id,x,y,runout_m", "id,x,northing,runout_m", "id,X (m),Y (m),runout_m"):
         text = plan.replace("id,x_m,y_m,runout_m", head)
-        refused("the table has x and y, which are places on a map; name the column that holds the distance", {"stops": {"csv": "t.csv"}}, ("t.csv", text))
+        refused("x and y are coordinates on a map; name the column with the distance", {"stops": {"csv": "t.csv"}}, ("t.csv", text))
         expect_equal(seen({"csv": "t.csv", "column": "runout_m"}, ("t.csv", text)), wanted, head)
-    for text, words in (("id;x\n1;40.5\n2;51,25\n", "t.csv:3:3: '51,25': decimals stand after a dot on line 2"), ("id;x\n1;1.040\n2;1.051\n", "two ways"),
-                        ("id,x\n1,40,5\n2,51,2\n", "more columns"), ('id;x;b\n1;40;a"\n2;50;a\n', "a quote within a cell"), ("id;x\n1;NA\n2;9\n", "'NA' is not a number"),
+    for text, words in (("id;x\n1;40.5\n2;51,25\n", "t.csv:3:3: the decimal sign of '51,25' is not the dot of line 2"), ("id;x\n1;1.040\n2;1.051\n", "two ways"),
+                        ("id,x\n1,40,5\n2,51,2\n", "more columns"), ('id;x;b\n1;40;a"\n2;50;a\n', "a stray quote in this cell"), ("id;x\n1;NA\n2;9\n", "'NA' is not a number"),
                         ('id;x\n1;"40\n2;50\n', "this quote is not closed"), ('id;x\n1;"40"5\n', "text after a closing quote")):
         refused(words, {"stops": {"csv": "t.csv", **({"only": "b=a"} if ";b" in text else {})}}, ("t.csv", text))
     done = check({"stops": {"csv": "t.csv", "only": "b=2"}}, ("t.csv", "id;Distanza;b;nota\n" + rows.replace(".", ",").replace("\n", ";\n")))
@@ -222,7 +222,7 @@ def test_misplaced():
     refused("observed[0].stops", [{"stops": 5}])
     refused("observed[0].stops", {"stops": [5]})
     refused("observed[0].stops.x_m", [{"stops": {"x_m": 5}}])
-    refused("cannot find '5' beside this file", [{"stops": {"x_m": "5"}}])
+    refused("cannot find '5' next to this file", [{"stops": {"x_m": "5"}}])
     refused("observed[0].speed.values", [{"speed": {"x_m": 50, "values": {"a": 1}}}])
     refused("observed[0].stops.csv", [{"stops": {"csv": ["stops.csv"]}}], table)
     refused("observed[0].stops.x_m: expected a list", [{"stops": {"csv": "stops.csv", "x_m": "stops.csv"}}], table)
@@ -234,12 +234,12 @@ def test_misplaced():
     refused("observed[0].stops.x_m[1]", [{"stops": {"x_m": [40, "far"]}}])
     refused("observed[0].stops.of", [{"stops": {"x_m": [40], "of": "many"}}])
     refused("'=a' is not COLUMN=WORD", {"stops": {"csv": "stops.csv", "only": "=a"}}, table)
-    refused("names something of a table", {"stops": {"x_m": [40], "only": "block=1"}})
+    refused("this needs a table", {"stops": {"x_m": [40], "only": "block=1"}})
     refused("observed[0].stops.onli: unknown key", [{"stops": {"column": "a", "onli": "b"}}])
     accepted({"stops": {"csv": "t.csv", "only": "block=b"}}, ("t.csv", "x,block\n40,a\n50,\n60,b\n"))
     refused("t.csv:3:1: too few columns", {"stops": {"csv": "t.csv", "only": "block=b"}}, ("t.csv", "x,block\n40,a\n50\n60,b\n"))
-    refused("observed[0].speed.x_m: 150 lies beyond the slope", [{"speed": {"x_m": 150, **mean}}])
-    refused("observed[0].scars.from_m: -5 lies beyond the slope", {"scars": {"from_m": -5, "to_m": 20, "height_m": [1]}})
+    refused("observed[0].speed.x_m: 150 lies outside the slope", [{"speed": {"x_m": 150, **mean}}])
+    refused("observed[0].scars.from_m: -5 lies outside the slope", {"scars": {"from_m": -5, "to_m": 20, "height_m": [1]}})
     refused("-1 is below 0", {"scars": {"from_m": 5, "to_m": 20, "height_m": [-1]}})
     refused("-1 is below 0", {"largest": {"speed_m_s": {"values": [-1]}}})
     refused("give values, or their mean, sd and n", {"largest": {"speed_m_s": {"mean": 3}}})
@@ -256,9 +256,9 @@ def test_draws_have_names():
     """A column of draws without a name, or with one of no value of the scene"""
     draws = {"uncertainty": {"draws": "d.csv"}}
     accepted([], ("d.csv", "rock.density_kg_m3\n2600\n"), **draws)
-    refused("the table has a column '', which is no value of this scene", [], ("d.csv", "rock.density_kg_m3,\n2600,1\n"), **draws)
-    refused("the table has a column '2600', which is no value of this scene", [], ("d.csv", "\n2600\n"), **draws)
-    refused("the table has a column 'rock.size', which", [], ("d.csv", "rock.density_kg_m3 rock.size\n2600\n"), **draws)
+    refused("the column '' is not a value of this scene; rename it", [], ("d.csv", "rock.density_kg_m3,\n2600,1\n"), **draws)
+    refused("the column '2600' is not a value of this scene; rename it", [], ("d.csv", "\n2600\n"), **draws)
+    refused("the column 'rock.size' is not", [], ("d.csv", "rock.density_kg_m3 rock.size\n2600\n"), **draws)
 
 
 def test_others_do_not_mind():

@@ -330,10 +330,10 @@ def test_output_is_input():
                      ("--find", "rock.diameter_m=0.4:0.5", "--goal", "adc", "-o", "stand.yaml", "s.yaml")]
             for arguments in runs:
                 done = ceduo(*arguments, cwd=f.path)
-                expect(done.status == OUTPUT and done.out == "" and "is read in this run" in done.err, done)
+                expect(done.status == OUTPUT and done.out == "" and "is an input of the run" in done.err, done)
             done = subprocess.run([CEDUO, "-b", "-o", "s.yaml", "-"], stdin=stdin, stderr=subprocess.PIPE, cwd=f.path,
                                   env=environment(), check=False)
-            expect(done.returncode == OUTPUT and b"is read in this run" in done.stderr, done)
+            expect(done.returncode == OUTPUT and b"is an input of the run" in done.stderr, done)
         expect_equal({n: (f.path / n).read_bytes() for n in f.names()}, before, "files")
         good("-b", "-o", "s.yaml", "plain.yaml", cwd=f.path)
 

@@ -88,15 +88,15 @@ def points_of(name, text):
 
 
 MENDED = [  # (file, words of the refusal, how the remedy is followed, vertices, keys of the slope then)
-    ("qgis-two-layers.csv", ["2 lines in one file: dsm_1m, dtm_1m", "'layer: dsm_1m'"], lambda s: s, POINTS, {"layer": "dtm_1m"}),
-    ("gmt-two-lines.txt", ["2 lines in one file: left line, right line"], lambda s: s, POINTS, {"layer": "right line"}),
+    ("qgis-two-layers.csv", ["2 lines: dsm_1m, dtm_1m", "'layer: dsm_1m'"], lambda s: s, POINTS, {"layer": "dtm_1m"}),
+    ("gmt-two-lines.txt", ["2 lines: left line, right line"], lambda s: s, POINTS, {"layer": "right line"}),
     ("excel-german-two-ways.csv", [":2:3: '1.412' can be read in two ways: write '1412' or '1,412'", "5 more"],
      lambda s: s.replace(";1.", ";1"), [[x, int(z)] for x, z in HIGHER], {}),
     ("wkt-flat.csv", ["has no heights", "Drape"], lambda s: re.sub(r"(\S+ \S+)(, |\))", "\\1 @\\2", s).replace("LINESTRING ", "LINESTRING Z "), POINTS, {}),
     ("gps-text-order.csv", [":5:1: the line turns back here; sort its points as numbers"],
      lambda s: "".join([s.splitlines(True)[0], *sorted(s.splitlines(True)[1:], key=lambda r: int(r.split(",")[0]))]),
      [[10 * k, 400 - 7 * k] for k in range(12)], {}),
-    ("r-nodata.csv", [":5:7: 'NA' is no height; remove the row"], lambda s: s.replace("75.25,NA\n", ""), [p for p in POINTS if p[0] != 75.25], {}),
+    ("r-nodata.csv", [":5:7: 'NA' is not a height; remove the row"], lambda s: s.replace("75.25,NA\n", ""), [p for p in POINTS if p[0] != 75.25], {}),
 ]
 
 
@@ -129,7 +129,7 @@ def test_heads():
                      '"Distanza\nprogressiva","Quota\n(m)"', "Progressiva,Elevazione\n\n"):
             expect_read(f, "p.csv", f"{head}\n{rows()}", POINTS)
         for head, words in (("distance (ft),elevation (ft)", "must be in m"), ("distance,elevation\n(km),(m)", "must be in m"),
-                            ("length,depth", "'distance' and 'elevation'"), ("distance,elevation,distance", "is there twice"),
+                            ("length,depth", "'distance' and 'elevation'"), ("distance,elevation,distance", "occurs twice"),
                             ("distance", "'distance' and 'elevation'")):
             expect_refused(f, "p.csv", f"{head}\n{rows()}", [words])
 
@@ -150,13 +150,13 @@ def test_numbers():
                      rows(";").replace("412.5", "1\u2019412.5").replace(";398", ";1\u2019398").replace(";371", ";1\u2019371").replace(";345", ";1\u2019345")
                      .replace(";330", ";1'330").replace(";326", ";1'326")):
             expect_read(f, "p.csv", "distance{0}elevation\n{1}".format(";" if ";" in text else ",", text), HIGHER)
-        for text, words in ((rows(";", ",").replace("398,2", "398.2"), ":3:6: '398.2': decimals stand after a comma on line 2"),
-                            (rows(";").replace("398.2", "398,2"), ":3:6: '398,2': decimals stand after a dot on line 2"),
+        for text, words in ((rows(";", ",").replace("398,2", "398.2"), ":3:6: the decimal sign of '398.2' is not the comma of line 2"),
+                            (rows(";").replace("398.2", "398,2"), ":3:6: the decimal sign of '398,2' is not the dot of line 2"),
                             (rows(",", ","), ":2:7: more columns than the first line has: 3 instead of 2; if commas stand for decimals, separate"),
                             (rows(";", ",").replace(";371", ";1.371"), ":4:4: '1.371' can be read in two ways: write '1371' or '1,371'"),
                             (rows().replace(",371", ',"1,371"'), ":4:4: '1,371' can be read in two ways: write '1371' or '1.371'"),
                             (rows().replace(",371", ",37 1"), "'37 1': two numbers in one cell"),
-                            (rows().replace(",371", ",37\u200b1"), "the character U+200B cannot be meant"),
+                            (rows().replace(",371", ",37\u200b1"), "the number contains the invisible character U+200B"),
                             (rows().replace(",371", ",1.371.2"), "'1.371.2' is not a number"), (rows().replace(",371", ",3,71"), "more columns"),
                             (rows().replace("40,", "40;"), "too few columns: 1, the head has 2"), (rows().replace(",371", ",l371"), "'l371' is not a number")):
             expect_refused(f, "p.csv", "distance{0}elevation\n{1}".format(";" if ";" in text.split("\n")[0] else ",", text), [words])
@@ -173,11 +173,11 @@ def test_no_data():
     """Heights that stand for no data, and heights that only an error of the terrain model has, are refused by line"""
     with Folder() as f:
         for value in ("-9999", "-32768", "-99999", "-10000", "3.4e38", "-3.40282346638529e+38", "-9999.0", "\u22129999"):
-            expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("371", value), [":4:4: ", "stands for no data"])
-            expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("326", value), [":7:5: ", "stands for no data"])
+            expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("371", value), [":4:4: ", "marks missing data"])
+            expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("326", value), [":7:5: ", "marks missing data"])
         for value in ("0", "9999"):
             for place, line in (("412.5", 2), ("371", 4), ("326", 7)):
-                expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace(place, value), [f":{line}:", "0 or 9999 among others"])
+                expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace(place, value), [f":{line}:", "a single height of 0 or 9999"])
         expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("371", "671"), [":4:1: ", "more than 200 m from both neighbours"])
         expect_refused(f, "p.csv", "distance,elevation\n0,900\n20,880\n21,620\n22,870\n90,800\n", [":4:1: ", "more than 200 m"])
         expect_read(f, "p.csv", "distance,elevation\n0,300\n10,280\n12,40\n60,20\n90,0\n", [[0, 300], [10, 280], [12, 40], [60, 20], [90, 0]])  # a face, and the sea
@@ -199,7 +199,7 @@ def test_map():
         expect_refused(f, "p.csv", line(lambda x: 11.25 + 7e-6 * x, lambda x: 43.5 - 7e-6 * x), ["not in degrees", "such as UTM"])
         expect_refused(f, "p.csv", "x,y,z\n0,0,90\n40,0,70\n10,1,60\n80,0,40\n", [":3:1: ", "turns back here"])
         expect_refused(f, "p.csv", "x,y,z\n0,0,90\n60,0,70\n60,40,60\n30,40,55\n30,-40,50\n90,-60,40\n", ["crosses itself"])
-        expect_refused(f, "p.csv", "wkt\n\"POINT (1 2 3)\"\n", ["this is no WKT"])
+        expect_refused(f, "p.csv", "wkt\n\"POINT (1 2 3)\"\n", ["this is not WKT"])
         expect_refused(f, "p.csv", "wkt\n\"LINESTRING M (0 0 3, 0 90 4)\"\n", ["has no heights"])
         expect_read(f, "p.csv", "SRID=32632;LINESTRINGZ(0 0 412.5,12.5 0 398.2,40 0 371,75.25 0 345.9,118 0 330.1,160 0 326)\n", POINTS)
         expect_read(f, "p.csv", 'name;geom\nb;MULTILINESTRING Z ((0 0 1, 9 0 0))\na;"MULTILINESTRING Z ((0 0 412.5,12.5 0 398.2,40 0 371,75.25 0 345.9,'
@@ -216,16 +216,16 @@ def test_several_lines():
     other = "0,90\n60,30\n100,0\n"
     with Folder() as f:
         twice = "distance,elevation\n" + rows() + other
-        expect_refused(f, "p.csv", twice, ["2 lines in one file: 1, 2"])
+        expect_refused(f, "p.csv", twice, ["2 lines: 1, 2"])
         expect_read(f, "p.csv", twice, POINTS, ["line '1' of 2"], layer="1")
         expect_read(f, "p.csv", twice, [[0, 90], [60, 30], [100, 0]], layer="2")
-        expect_refused(f, "p.csv", twice, ["there is no line '3'; the file holds: 1, 2"], layer="3")
+        expect_refused(f, "p.csv", twice, ["no line '3'; the file has: 1, 2"], layer="3")
         four = "".join(f"{600000 + x} 4870000 {x} {{}}\n" for x in (0, 20, 60, 90))
         both = "> one\n" + four.format(90, 70, 30, 0) + "> two\n" + "700000 4870000 0 80\n700000 4869950 50 40\n700000 4869900 100 10\n"
         expect_read(f, "p.csv", both, [[0, 90], [20, 70], [60, 30], [90, 0]], layer="one")
         expect_read(f, "p.csv", both, [[0, 80], [50, 40], [100, 10]], ["line 'two' of 2"], layer="two")
         mixed = "linea;distanza;quota\n" + "".join(f"{'ab'[i % 2]};{x};{z}\n" for i, (x, z) in enumerate(p for pair in zip(POINTS, HIGHER) for p in pair))
-        expect_refused(f, "p.csv", mixed, ["2 lines in one file: a, b"])
+        expect_refused(f, "p.csv", mixed, ["2 lines: a, b"])
         expect_read(f, "p.csv", mixed, POINTS, layer="a")
 
 
@@ -238,9 +238,9 @@ def test_walls():
                     ["1 overhang, at 20 m, replaced by its outer envelope"])
         expect_read(f, "p.csv", "x,z\n0,0\n66,24\n72,30\n70,40\n90,50\n", [[0, 0], [66, 24], [69.99, 28], [70, 40], [90, 50]], ["1 overhang"], reversed=True)
         expect_read(f, "p.csv", "x,z\n0,50\n20,40\n19,38\n18,30\n20,29\n30,24\n90,0\n", [[0, 50], [20, 40], [20.01, 29], [30, 24], [90, 0]])
-        for text, words in (("x,z\n0,50\n20,40\n5,30\n10,0\n", "distance 5 does not lie beyond 20"), ("x,z\n0,50\n20,40\n18,45\n90,0\n", "18 does not lie"),
+        for text, words in (("x,z\n0,50\n20,40\n5,30\n10,0\n", "5 follows 20"), ("x,z\n0,50\n20,40\n18,45\n90,0\n", "18 follows 20"),
                             ("x,z\n90,0\n20,40\n0,50\n", "sort the rows by distance"), ("x,z\n0,50\n10,48\n100,0\n20,45\n", "as numbers"),
-                            ("x,z\n0,50\n20,40\n18,30\n", "does not lie beyond"), ("x,z\n5,50\n5,40\n", "all points lie at the same distance")):
+                            ("x,z\n0,50\n20,40\n18,30\n", "distances must rise"), ("x,z\n5,50\n5,40\n", "all points lie at the same distance")):
             expect_refused(f, "p.csv", text, [words])
 
 

@@ -29,6 +29,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (CEDUO, DONE, INPUT, RUN, SANITIZED, SLOWER, Failure, Folder, Suite, ceduo, expect,  # noqa: E402
                      expect_equal, expect_schema, good, no_constant, without_unusual, of_today)
 import random_scenes  # noqa: E402
+from pages import arrivals_of  # noqa: E402
 from runs import is_formula  # noqa: E402
 
 SCENES = int(os.environ.get("SCENES") or (500 if os.environ.get("FULL") else 250))
@@ -694,7 +695,6 @@ def compare_stands(case, result, rows):
 
 # ---- the page ----
 
-ROW = re.compile(r"    (through the wood|without forest) +(?:(\d+ \(\d+–\d+\)) +)?(\d+ \(\d+–\d+\)) +(.*)")
 VERDICT = re.compile(r"    (Contact|Free run|Energy): (passes|FAILS|unknown)\.")
 
 
@@ -723,14 +723,14 @@ def expect_shown(cell, value, what):
     expect(abs(shown - Fraction(value)) <= unit * Fraction(51, 100), f"{what}: {cell!r} on the page, {value!r} in JSON")
 
 
-def check_page_row(a, rest, what):
-    expect("…" not in rest, f"{what}: a figure is cut: {rest!r}")
-    mean, *cells = rest.rsplit(None, 2)
-    bracket = re.match(r"\(([\d.]+)±[\d.]+\)(e-?\d+)$", mean)
-    expect_shown(bracket[1] + bracket[2] if bracket else re.split(" ?±", mean)[0], a["energy_kJ"]["mean"], f"{what}: mean kJ")
-    wanted = [a["energy_kJ"]["p95"], a["speed_m_s"]["mean"]]
-    for cell, value, name in zip(cells, wanted, ("95 %", "m/s")):
-        expect_shown(cell, value, f"{what}: {name}")
+def check_rows(rows, a, what):
+    """The figures of one side of a table of what arrives."""
+    named = {re.sub(r"arrive with more than .* kJ", "exceed", name): cell for name, cell in rows.items()}
+    expect("…" not in "".join(rows.values()), f"{what}: a figure is cut: {rows!r}")
+    expect_equal((named.get("exceed", "-"), named["arrive"]), (of_1000(a, "exceed"), of_1000(a, "reach")), what)
+    for name, value in (("mean energy of those that arrive, kJ", a["energy_kJ"]["mean"]), ("95 % stay below, kJ", a["energy_kJ"]["p95"]),
+                        ("mean speed of those that arrive, m/s", a["speed_m_s"]["mean"])):
+        expect_shown(named.get(name, "-").split()[0], value, f"{what}: {name}")
 
 
 def check_lines(lines, width, what):
@@ -744,7 +744,7 @@ def check_page(case, lines, result):
     head = f"Rocks    {result['rocks']}, seed {result['seed']}"
     expect(head in lines, f"the page: {head!r} is missing")
     often = next((i for i, line in enumerate(lines) if line.startswith("How often, ")), len(lines))
-    rows = iter([m for m in map(ROW.fullmatch, lines[:often]) if m])  # the energies of return periods may look alike
+    tables = iter(arrivals_of("\n".join(lines[:often])))
     verdicts = iter([m for m in map(VERDICT.match, lines) if m])
     several = len(result["options"]) > 1  # what arrives without forest stands once, before them
     bare = [{"name": "", "controls": result["options"][0]["controls"]}] if several else []
@@ -752,21 +752,18 @@ def check_page(case, lines, result):
         for c in option["controls"]:
             what = f"the page, option {i}, at {c['x_m']!r} m"
             alone = several and i == 0
-            for name, a in (("through the wood", c["wooded"]), ("without forest", c["bare"])):
-                if not a or (several and alone != (name == "without forest")):
-                    continue
-                row = next(rows, None)
-                expect(row and row[1] == name, f"{what}: no row '{name}'")
-                expect_equal(row[2] or "-", of_1000(a, "exceed"), f"{what}, {name}: exceed")
-                expect_equal(row[3], of_1000(a, "reach"), f"{what}, {name}: arrive")
-                check_page_row(a, row[4], f"{what}, {name}")
+            table = next(tables, None) if alone or not several or c["wooded"] else {}
+            expect(table is not None, f"{what}: no table of what arrives")
+            for side, rows in table.items():
+                expect(c[side] and (not several or alone == (side == "bare")), f"{what}: figures of {side}")
+                check_rows(rows, c[side], f"{what}, {side}")
             for light, key in () if alone else (("Contact", "contact"), ("Free run", "free_run"), ("Energy", "energy")):
                 if c["verdict"]["answer"] == "nothing": # said once, at the head of the page
                     expect_equal(c["lights"][key], "unknown", what)
                     continue
                 verdict = next(verdicts, None)
                 expect(verdict and (verdict[1], LIGHTS[verdict[2]]) == (light, c["lights"][key]), f"{what}: {light}: {verdict}")
-    expect(next(rows, None) is None and next(verdicts, None) is None, "the page: rows too many")
+    expect(next(tables, None) is None and next(verdicts, None) is None, "the page: rows too many")
 
 
 def pages(text):

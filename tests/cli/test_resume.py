@@ -211,9 +211,9 @@ def test_other_files():
         f.write("odd.csv", "")
         os.mkfifo(f.path / "odd.csv.resume")
         (f.path / "folder").mkdir()
-        for name, words in (("other.csv", "there is no other.csv.resume"), ("side.csv", "side.csv.resume: this is no file of --resume"),
+        for name, words in (("other.csv", "its side file other.csv.resume is missing"), ("side.csv", "side.csv.resume: this is not a file of --resume"),
                             ("pipe", "not a device or a pipe"), ("link", "not a device or a pipe"), ("/dev/null", "not a device or a pipe"),
-                            ("odd.csv", "odd.csv.resume: --resume needs a file"), ("s.yaml", "read in this run"), ("folder", "directory"),
+                            ("odd.csv", "odd.csv.resume: --resume needs a regular file"), ("s.yaml", "an input of the run"), ("folder", "directory"),
                             ("100.csv", "100.csv.resume"), ("none/x.csv", "No such file")):
             before = (f.path / name).read_bytes() if (f.path / name).is_file() else None
             r = run(f, *WORDS, "-o", name, "--resume")

@@ -62,7 +62,7 @@ def test_nothing():
         result = answer(what)
         expect_equal((result["figures"], result["ranking"], result["evaluations"]), ([], [], 0))
     with Folder() as f:
-        for uncertainty, told in ([], "nothing in this scene is marked as assumed"), ("none", "not computed, because the scene says 'uncertainty: none'"):
+        for uncertainty, told in ([], "Nothing in this scene is marked as assumed"), ("none", "not computed, because the scene says 'uncertainty: none'"):
             path = f.write("s.yaml", measured(uncertainty=uncertainty))
             report = f.path / "r.html"
             expect_in(told, " ".join(ceduo("--sensitivity", path).out.split()))
@@ -78,7 +78,7 @@ def test_page_of_a_run():
         with Folder() as f:
             page = " ".join(good("--batch", "--details", "-n", 50, f.write("s.yaml", what)).out.split())
             expect(re.search(r"by the number of rocks \(50\); [\d-]+–[\d-]+ by what is not known\." if says else
-                             r"by the number of rocks \(50\); nothing in this scene is marked as assumed\.", page), page)
+                             r"by the number of rocks \(50\); Nothing in this scene is marked as assumed\.", page), page)
 
 
 def test_lights():
@@ -598,7 +598,7 @@ def test_bound_of_a_page():
                         rock={"shape": "sphere", "diameter_m": rock, "density_kg_m3": 2600})
     with Folder() as f:
         for what, rocks, says in ((of(500, 0.7), 20, ""), (of(60000, 4), 400, r"Uncertainty from \d+ points\."),
-                                  (of(100000, 60), 100, "what is not known was not computed, as it takes long: --sensitivity does")):
+                                  (of(100000, 60), 100, "Uncertainty was not computed, because it takes long; --sensitivity computes it")):
             path, report = f.write("s.yaml", what), f.path / "r.html"
             good("--report", report, "-n", rocks, path)
             words = html.unescape(re.sub("<[^>]*>", " ", report.read_text(encoding="utf-8")))
@@ -717,12 +717,12 @@ def test_what_is_not_there():
 
 
 REFUSED = {
-    "uncertainty[0].path: 'rock.colour' does not affect the result": {"path": "rock.colour", "lo": 1, "hi": 2},
-    "uncertainty[0].path: 'title' does not affect the result": {"path": "title", "lo": 1, "hi": 2},
-    "uncertainty[0].path: 'slope.materials[gold].rn' does not affect the result": {"path": "slope.materials[gold].rn", "lo": 0.1, "hi": 0.2},
-    "uncertainty[0].path: 'simulation.rocks' does not affect the result": {"path": "simulation.rocks", "lo": 100, "hi": 200},
-    "uncertainty[0].path: 'uncertainty[*].lo' does not affect the result": {"path": "uncertainty[*].lo", "lo": 100, "hi": 200},
-    "uncertainty[0].path: 'years.first' does not affect the result": {"path": "years.first", "lo": 1, "hi": 2},
+    "uncertainty[0].path: 'rock.colour' affects no result": {"path": "rock.colour", "lo": 1, "hi": 2},
+    "uncertainty[0].path: 'title' affects no result": {"path": "title", "lo": 1, "hi": 2},
+    "uncertainty[0].path: 'slope.materials[gold].rn' affects no result": {"path": "slope.materials[gold].rn", "lo": 0.1, "hi": 0.2},
+    "uncertainty[0].path: 'simulation.rocks' affects no result": {"path": "simulation.rocks", "lo": 100, "hi": 200},
+    "uncertainty[0].path: 'uncertainty[*].lo' affects no result": {"path": "uncertainty[*].lo", "lo": 100, "hi": 200},
+    "uncertainty[0].path: 'years.first' affects no result": {"path": "years.first", "lo": 1, "hi": 2},
     "uncertainty[0].hi: the range is empty": {"path": "rock.density_kg_m3", "lo": 2500, "hi": 2500},
     "uncertainty[0].sd: the range is empty": {"path": "rock.density_kg_m3", "mean": 2500, "sd": 0},
     "uncertainty[0].hi: 1.5 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "lo": 0.5, "hi": 1.5},

@@ -64,11 +64,11 @@ def test_set_through_files():
 
 def test_set_at_odds():
     """A change that does not fit the rest of a good scene is named, with status 2; a bad scene stays bad input"""
-    for sets, column, words in ((["forest[0].to_m=100"], 16, "forest[1].from_m: 67.5 lies before the end"),
-                                (["release.x_m=140"], 13, "controls[0].x_m: 135 does not lie beyond the release"),
+    for sets, column, words in ((["forest[0].to_m=100"], 16, "forest[1].from_m: belts must not overlap"),
+                                (["release.x_m=140"], 13, "controls[0].x_m: 135 must lie beyond the release"),
                                 (["slope.vertices_m=[[0,100],[50,0]]"], 18, "13 segments for 1 stretches"),
                                 (["rock.shape=sphere", "rock.diameter_m=1"], 12, "does not belong to the shape 'sphere'"),
-                                (["simulation.rocks=9", "forest[0].to_m=100", "rock.diameter_m=1"], 16, "lies before the end")):
+                                (["simulation.rocks=9", "forest[0].to_m=100", "rock.diameter_m=1"], 16, "belts must not overlap")):
         done = ceduo("--check", *(word for s in sets for word in ("-s", s)), PAPER)
         culprit = next(s for s in sets if "=9" not in s)
         expect(done.status == USAGE and done.out == "", done)
@@ -164,7 +164,7 @@ BAD_SETS = [
     ("rock.diameter_m=1e999", "too large"), ("rock={", "malformed YAML"), ("rock.diameter_m=*x", "alias"),
     ("rock.diameter_m=&x 1", "anchor"), ("rock.diameter_m=!!int 1", "tag"), ("simulation.law=bounce", "unknown"),
     ("simulation.contact_model=pinball", "unknown"), ("simulation.rocks=1.5", "whole number"),
-    ("controls[0].x_m=500", "beyond the slope"), ("release.x_m=-5", "beyond the slope"),
+    ("controls[0].x_m=500", "outside the slope"), ("release.x_m=-5", "outside the slope"),
     ("simulation.scale_rn=yes", "true or false"), ("title=[1]", "expected a text"), ("rock.diameter_m=\x1b[31m", "control"),
     ("rock.\x1b[31m=1", "unknown key"),
 ]

@@ -86,7 +86,7 @@ def test_one_of_both():
         expect_in("shoots[0].per_ha: per_stool already says this", refused(f, coppice(per_stool=3, per_ha=7500)))
         expect_in("'per_ha' or 'per_stool' is missing", refused(f, coppice(dbh_sd_m=0)))
         expect_in("is not above 0", refused(f, coppice(per_stool=0)))
-        expect_in("a stool has one shoot at least", refused(f, coppice(per_stool=0.9)))
+        expect_in("each stool needs one", refused(f, coppice(per_stool=0.9)))
         bare = coppice()
         del bare["stools"]
         expect_in("shoots without stools", refused(f, bare))

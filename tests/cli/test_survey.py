@@ -214,7 +214,7 @@ def test_told_once():
     """What is wrong in the same way in many rows is told once, with how many there are"""
     with Folder() as f:
         r = survey(f, HEAD + "\n" + ROW.replace("tree", "bush") * 40)
-        expect_equal(r.err.count("is no kind of stem"), 1, r.err)
+        expect_equal(r.err.count("is not a kind of stem"), 1, r.err)
         expect_in("39", r.err)
 
 
@@ -259,7 +259,7 @@ def test_beyond_the_heights():
         stand_of(f, text)
         r = survey(f, "\n".join([head, *rows, "1,,,,tree,,9,", "1,,,,tree,,41,"]))
         expect_equal((r.status, r.out), (INPUT, ""), r.err)
-        expect_in(f"makes a stem of 41 cm {steep(41):.0f} m tall, more than 150; measure the heights of thick stems, too", r.err)
+        expect_in(f"a stem of 41 cm is {steep(41):.0f} m tall, more than 150 m; measure heights of thick stems, too", r.err)
 
 
 def test_what_is_assumed():
@@ -323,7 +323,7 @@ def test_stumps():
         text = survey(f, table().replace("\n", ",\n").replace(f"{HEAD},", f"{HEAD},energy_kJ") + rows).out
         each = [10000 / (area * math.cos(math.radians(slope))) for area, slope, _ in STEMS.values()]
         expect_in(f"stumps: {{per_ha: {statistics.mean(each):.6g}, diameter_m: 0.233333, height_m: 0.3, energy_kJ: 3,", text)
-        expect_in("kind: assumed, text: \"counted; what one takes", text)
+        expect_in("kind: assumed, text: \"counted; the energy that one absorbs", text)
         expect_in(f"path: stumps.per_ha, mean: {statistics.mean(each):.6g}, sd: {statistics.stdev(each) / math.sqrt(3):.6g}", text)
         _, path = stand_of(f, text)
         r = ceduo("--sensitivity=2", "-n", 20, "-f", "json", path)
@@ -380,43 +380,43 @@ ROW = "A,200,35,,tree,,20,12,\n"
 BAD = [  # (content, place, words)
     ("", "", "the file is empty"), ("x\n1\n", ":1:1", "must name the column 'plot'"),
     ("plot,kind\nA,tree\n", ":1:1", "'dbh_cm'"), ("plot,kind,dbh_cm\nA,tree,3\n", ":1:1", "'area_m2' or 'radius_m'"),
-    ("plot,plot,area_m2,kind,dbh_cm\n", ":1:1", "'plot' is there twice"), (HEAD + "\n", "", "there is no plot"),
+    ("plot,plot,area_m2,kind,dbh_cm\n", ":1:1", "'plot' occurs twice"), (HEAD + "\n", "", "the table has no row"),
     (HEAD + "\n" + ROW.replace("A", "", 1), ":2:1", "'plot' is missing"),
     (HEAD + "\n" + ROW.replace("200", ""), ":2:1", "no area_m2 and no radius_m"),
-    (HEAD + "\n" + ROW.replace("200", "0"), ":2:3", "below 1 m2"),
-    (HEAD + "\n" + ROW.replace("200", "-5"), ":2:3", "below 1 m2"),
-    (HEAD + "\n" + ROW.replace("200", "1e9"), ":2:3", "beyond 1e+06 m2"),
+    (HEAD + "\n" + ROW.replace("200", "0"), ":2:3", "0 is outside the range 1 to 1e+06 m2"),
+    (HEAD + "\n" + ROW.replace("200", "-5"), ":2:3", "-5 is outside the range 1 to 1e+06 m2"),
+    (HEAD + "\n" + ROW.replace("200", "1e9"), ":2:3", "outside the range 1 to 1e+06 m2"),
     (HEAD + "\n" + ROW.replace("200", "much"), ":2:3", "'much' is not a number"),
-    (HEAD + "\n" + ROW.replace("35", "95"), ":2:7", "beyond 85 degrees"),
-    (HEAD + "\n" + ROW + ROW.replace("200", "300"), ":3:3", "'area_m2' is 200 elsewhere for this plot, here 300"),
-    (HEAD + "\n" + ROW + ROW.replace("35", "36"), ":3:7", "'slope_deg' is 35 elsewhere for this plot, here 36"),
+    (HEAD + "\n" + ROW.replace("35", "95"), ":2:7", "95 is outside the range 0 to 85 degrees"),
+    (HEAD + "\n" + ROW + ROW.replace("200", "300"), ":3:3", "'area_m2' is 200 in another row of this plot, here 300"),
+    (HEAD + "\n" + ROW + ROW.replace("35", "36"), ":3:7", "'slope_deg' is 35 in another row of this plot, here 36"),
     (HEAD.replace("slope_deg", "radius_m") + "\n" + ROW, ":2:7", "area_m2 already says this"),
-    (HEAD + "\n" + ROW.replace("tree", "bush"), ":2:11", "'bush' is no kind of stem: shoot, standard, tree or stump"),
-    (HEAD + "\n" + ROW.replace("tree", ""), ":2:11", "'' is no kind of stem"),
+    (HEAD + "\n" + ROW.replace("tree", "bush"), ":2:11", "'bush' is not a kind of stem; write shoot, standard, tree or stump"),
+    (HEAD + "\n" + ROW.replace("tree", ""), ":2:11", "'' is not a kind of stem"),
     (HEAD + "\n" + ROW.replace(",,tree", ",oak,tree"), ":2:10", "'oak' is an unknown species; leave it empty, or one of: hop hornbeam"),
     (HEAD + "\n" + ROW.replace(",20,", ",,"), ":2:17", "'dbh_cm' is missing"),
-    (HEAD + "\n" + ROW.replace(",20,", ",0,"), ":2:17", "below 0.1 cm"),
-    (HEAD + "\n" + ROW.replace(",20,", ",750,"), ":2:17", "750 cm: more than 300 cm; is it in mm?"),
-    (HEAD + "\n" + ROW.replace(",20,", ",300.5,"), ":2:17", "300.5 cm: more than 300 cm; is it in mm?"),
-    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,301,1"), ":2:18", "301 cm: more than 300 cm; is it in mm?"),
-    (HEAD + "\n" + ROW.replace(",20,", ",2e6,"), ":2:17", "beyond 1e+06 cm"),
+    (HEAD + "\n" + ROW.replace(",20,", ",0,"), ":2:17", "0 is outside the range 0.1 to"),
+    (HEAD + "\n" + ROW.replace(",20,", ",750,"), ":2:17", "750 cm is more than 300 cm; name the column"),
+    (HEAD + "\n" + ROW.replace(",20,", ",300.5,"), ":2:17", "300.5 cm is more than 300 cm; name the column"),
+    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,301,1"), ":2:18", "301 cm is more than 300 cm; name the column"),
+    (HEAD + "\n" + ROW.replace(",20,", ",2e6,"), ":2:17", "2e6 is outside the range 0.1 to 1e+06 cm"),
     (HEAD + "\n" + ROW.replace(",20,", ",nan,"), ":2:17", "'dbh_cm' is missing"),
-    (HEAD + "\n" + ROW.replace(",12,", ",1.2,"), ":2:20", "1.2 m is no height of a stem of this kind: it must be above 1.3 and at most 150 m"),
-    (HEAD + "\n" + ROW.replace(",12,", ",1.3,"), ":2:20", "1.3 m is no height of a stem of this kind"),
-    (HEAD + "\n" + ROW.replace(",12,", ",-1,"), ":2:20", "below 0 m"),
-    (HEAD.replace("dbh_cm", "Diametro (in)") + "\n" + ROW, ":1:43", "'Diametro (in)': its values must be in cm or mm; convert"),
-    (HEAD.replace("slope_deg", "Pendenza (%)") + "\n" + ROW.replace("35", "1200"), ":2:7", "beyond 1143.01 %"),
+    (HEAD + "\n" + ROW.replace(",12,", ",1.2,"), ":2:20", "1.2 m is outside the range of heights here (above 1.3, at most 150 m)"),
+    (HEAD + "\n" + ROW.replace(",12,", ",1.3,"), ":2:20", "1.3 m is outside the range of heights here"),
+    (HEAD + "\n" + ROW.replace(",12,", ",-1,"), ":2:20", "-1 is outside the range 0 to"),
+    (HEAD.replace("dbh_cm", "Diametro (in)") + "\n" + ROW, ":1:43", "this column must be in cm or mm; convert"),
+    (HEAD.replace("slope_deg", "Pendenza (%)") + "\n" + ROW.replace("35", "1200"), ":2:7", "1200 is outside the range 0 to 1143.01 %"),
     ("Plots;\n" + HEAD.replace(",", ";").replace("kind;", "") + "\n", ":2:1", "must name the column 'kind'"),
     (HEAD + "\n" + ROW.replace("tree", "shoot"), ":2:17", "the stool of this shoot is missing"),
     (HEAD + "\n" + ROW.replace(",12,", ",12,0.3"), ":2:23", "a stem of this kind has no 'spacing_m'"),
-    (HEAD + "\n" + ROW.replace("tree,,20,12,", "shoot,1,6,5,0"), ":2:23", "below 0.01 m"),
-    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,20,0"), ":2:21", "0 m is no height of a stem of this kind: it must be above 0 and at most 20 m"),
-    (HEAD.replace(",", ";") + "\n" + ROW.replace(",", ";").replace("20;12", "20,5;1.2e1"), ":2:22", "write all numbers in the same way"),
-    (HEAD + "\nA,1,,,tree,,20,12,\n" + "A,,,,tree,,20,12,\n" * 101, ":1:6", "are the areas in m2 and the diameters in cm?"),
+    (HEAD + "\n" + ROW.replace("tree,,20,12,", "shoot,1,6,5,0"), ":2:23", "0 is outside the range 0.01 to"),
+    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,20,0"), ":2:21", "0 m is outside the range of heights here (above 0, at most 20 m)"),
+    (HEAD.replace(",", ";") + "\n" + ROW.replace(",", ";").replace("20;12", "20,5;1.2e1"), ":2:22", "use one sign in the whole table"),
+    (HEAD + "\nA,1,,,tree,,20,12,\n" + "A,,,,tree,,20,12,\n" * 101, ":1:6", "check that areas are in m2 and diameters in cm"),
     (HEAD + ",energy_kJ\n" + ROW.replace("\n", ",3\n"), ":2:24", "a stem of this kind has no 'energy_kJ'"),
     (HEAD + ",energy_kJ\n" + ROW.replace("tree", "stump").replace("\n", ",x\n"), ":2:25", "'x' is not a number"),
-    (HEAD.replace("area_m2", "radius_m") + "\n" + ROW.replace("200", "-1"), ":2:3", "below 0.5 m"),
-    (HEAD + "\n" + ROW.replace("tree", "b" * 120), ":2:11", "b' is no kind of stem"),
+    (HEAD.replace("area_m2", "radius_m") + "\n" + ROW.replace("200", "-1"), ":2:3", "-1 is outside the range 0.5 to 500 m"),
+    (HEAD + "\n" + ROW.replace("tree", "b" * 120), ":2:11", "b' is not a kind of stem"),
     (HEAD + "\n" + ROW.replace(",,tree", "," + "o" * 120 + ",tree"), ":2:10", "o' is an unknown species"),
     (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,20,21"), ":2:21", "at most 20 m"),
     (HEAD + "\n" + ROW + "A,,,,,,,,\n" * 200000, ":200002:1", "more than 200000 rows"),
@@ -456,7 +456,7 @@ def test_thick():
         expect_in("dbh_m: 3,", survey(f, HEAD + "\n" + ROW.replace("200", "2000").replace(",20,", ",300,")).out)
         r = survey(f, HEAD + "\n" + ROW.replace(",20,", ",750,"), "--language", "it")
         expect_equal(r.status, INPUT, r)
-        expect_in("plots.csv:2:17: 750 cm: pi\u00f9 di 300 cm; \u00e8 in mm?", r.err)
+        expect_in("plots.csv:2:17: 750 cm sono pi\u00f9 di 300 cm; chiamare la colonna", r.err)
 
 
 def test_thin():
@@ -518,7 +518,7 @@ def future_of(stems, *arguments):
     """What is written between the stems and the source of the whole."""
     with Folder() as f:
         out = read(f.write("plots.csv", table({"A": (100, 0, stems), "B": (100, 0, stems)})), *arguments).out
-    return re.search(r"(?ms)^ +source: [^\n]*\n(# Growth.*?|# No stand.*?|)^source:", out)[1]
+    return re.search(r"(?ms)^ +source: [^\n]*\n(# Growth.*?|# ceduo has.*?|)^source:", out)[1]
 
 
 def test_future():
@@ -534,7 +534,7 @@ def test_future():
               ("fagus-sylvatica", 3, 19.8, "beech-coppice-with-standards"), ("fagus-sylvatica", 3, 19.9, "beech-large-reserves")]
     for species, standards, dbh, name in cases:
         text = future_of(stems(species, standards, dbh))
-        expect_in(f"those of the stand '{name}' that comes with ceduo", text)
+        expect_in(f"as in the shipped stand '{name}'", text)
         expect_equal(text.count("kind: assumed"), 2, text)
         shipped = {}
         for key in ("growth", "cutting"):  # a file goes before its base
@@ -550,8 +550,8 @@ def test_future():
     with Folder() as f:  # nine of ten plots are empty: fewer than 90 a hectare
         one = {f"P{i}": (100, 0, stems("ostrya-carpinifolia", 8) if i == 0 else []) for i in range(10)}
         expect_in("'simple-coppice'", survey(f, table(one)).out)
-    expect_in("# No stand of this species comes with ceduo", future_of(stems("robinia-pseudoacacia", 1)))
-    expect_in("# No stand of this species comes with ceduo", future_of(stems("", 1)))
+    expect_in("# ceduo has no stand of this species", future_of(stems("robinia-pseudoacacia", 1)))
+    expect_in("# ceduo has no stand of this species", future_of(stems("", 1)))
     expect_equal(future_of([("fagus-sylvatica", "tree", "", 30, 20, "")]), "", "no shoots")
 
 
@@ -580,7 +580,7 @@ def test_years_of_a_survey():
         areas = [y["stands"][0]["basal_area_m2_ha"] for y in waiting]
         expect(all(a < b for a, b in zip(areas, areas[1:])), f"it grows: {areas}")
         page = " ".join(good("--batch", "--details", "--years", "-s", "uncertainty=none", "-n", 20, site).out.split())
-        expect_in("that comes with ceduo; not of this survey (growth", page)
+        expect_in("not from this survey (growth", page)
 
 
 def test_usage():

@@ -77,12 +77,12 @@ READ = {
                       "3 shoots on 2 stools, 2 standards, 1 tree", "; not used: Note"),
     "girths": ({"shoots": per_ha((2, 300), (1, 300), (0, 300)), "stools": per_ha((1, 300), (1, 300), (0, 300)),
                 "standards": 10000 / 300 / 3, "trees": 10000 / 300 / 3},
-               "3 plots of 300 m2, told apart by Stand", "dbh 7.99 to 30 cm, from circumferences"),
+               "3 plots of 300 m2, distinguished by Stand", "dbh 7.99 to 30 cm, from circumferences"),
     "units-row": ({"trees": per_ha((2, 400 * cosine(60)), (1, 400))}, "given in mm", "given in percent", "1 dead and 1 cut left out"),
     "status-english": ({"trees": per_ha((7, 400), (2, 400))}, "9 trees", "4 dead left out"),
     "german": ({"shoots": per_ha((2, 250 * cosine(50)), (1, 250 * cosine(50))), "stools": 10000 / 250 / cosine(50),
                 "standards": per_ha((1, 250 * cosine(50)), (0, 250))}, "given in mm", "1 dead left out", "not used: Bemerkung"),
-    "german-girths": ({"trees": per_ha((4, BREAST), (2, BREAST), (3, BREAST))}, "3 plots of 201.1 m2, told apart by Standort",
+    "german-girths": ({"trees": per_ha((4, BREAST), (2, BREAST), (3, BREAST))}, "3 plots of 201.1 m2, distinguished by Standort",
                       "dbh 20 to 30 cm, from circumferences"),
 }
 
@@ -113,26 +113,26 @@ REFUSED = {
                         [(instead(("Matricine\n", "Matricine;N. ceppaie\n"), ("6;44;0", "6;44;0;20"), ("8;31;0", "8;31;0;"),
                                   ("22;0;3", "22;0;3;"), ("6;29;0", "6;29;0;14"), ("24;0;4", "24;0;4;")),
                           {"shoots": per_ha((75, 500), (29, 500)), "stools": per_ha((20, 500), (14, 500)), "standards": 70})]),
-    "inches": (["'DBH (in)': its values must be in cm or mm; convert them and name the column 'dbh_cm'"],
+    "inches": (["this column must be in cm or mm; convert it and name it 'dbh_cm'"],
                [(lambda text: convert(4, 2.54)(text).replace("DBH (in)", "dbh_cm"), {"trees": 100})]),
-    "percent-slopes": (["plots.csv:2:7", "name the column 'slope_deg' if it is in degrees, 'slope (%)' if it is in percent"],
+    "percent-slopes": (["plots.csv:2:7", "name the column 'slope_deg' for degrees, 'slope (%)' for percent"],
                        [(instead(("Pendenza", "slope (%)")), {"trees": per_ha((9, 400 * cosine(75)), (7, 400 * cosine(60)))}),
                         (instead(("Pendenza", "Pendenza (%)")), {"trees": per_ha((9, 400 * cosine(75)), (7, 400 * cosine(60)))}),
                         (instead(("Pendenza", "slope_deg")), {"trees": per_ha((9, 400 * math.cos(math.radians(75))), (7, 200))}),
                         (instead((";75;", ";75 %;"), (";60;", ";60%;")),
                          {"trees": per_ha((9, 400 * cosine(75)), (7, 400 * cosine(60)))})]),
-    "hectares": (["'Superficie (ha)': its values must be in m2; convert them and name the column 'area_m2'"],
+    "hectares": (["this column must be in m2; convert it and name it 'area_m2'"],
                  [(lambda text: convert(2, 10000)(text).replace("Superficie (ha)", "area_m2"), {"trees": per_ha((13, 400), (10, 500))})]),
-    "millimetres": (["a mean diameter of 122 cm with a mean height of 9.62 m: name the column 'dbh_mm'", "'dbh_cm'"],
+    "millimetres": (["the mean diameter is 122 cm, the mean height 9.62 m; name the column 'dbh_mm'", "'dbh_cm'"],
                     [(instead(("Diametro", name)), {"shoots": per_ha((2, 400), (1, 400)), "stools": 25, "standards": 12.5})
                      for name in ("dbh_mm", "Diametro (mm)")]),
-    "numbers": (["plots.csv:1:1: this column goes 1, 2, 3: name it 'id'", "'count'"],
+    "numbers": (["plots.csv:1:1: this column goes 1, 2, 3; name it 'id'", "'count'"],
                 [(instead(("N.;", "id;")), {"trees": per_ha((3, 300), (1, 300))}),
                  (instead(("N.;", "count;")), {"trees": per_ha((6, 300), (4, 300))})]),
-    "concentric": (["plots.csv:4:3: 'area_m2' is 50 elsewhere for this plot, here 400", "make a survey of each area"],
+    "concentric": (["plots.csv:4:3: 'area_m2' is 50 in another row of this plot, here 400", "make a survey of each area"],
                    [(lambda text: "".join(row for row in text.splitlines(True) if "400" not in row), {"shoots": 300, "stools": 200}),
                     (lambda text: "".join(row for row in text.splitlines(True) if ",50," not in row), {"standards": per_ha((1, 400), (2, 400))})]),
-    "stray-quote": (["plots.csv:3:28: a quote within a name is a slip; remove it"],
+    "stray-quote": (["plots.csv:3:28: a stray quote in this cell; remove it"],
                     [(instead(('"', "")), {"shoots": per_ha((3, 200), (1, 200)), "stools": per_ha((2, 200), (1, 200))})]),
 }
 
@@ -214,7 +214,7 @@ def test_counts():
             read(f, tally.format(head), {"trees": per_ha((23, 400), (14, 400))}, "2 plots of 400 m2, 37 trees")
         expect_in("; read as: numero = count", survey(f, tally.format("numero")).err)
         expect("read as" not in survey(f, tally.format("n. fusti")).err)
-        for value, words in (("2.5", "'count' must be a whole number"), ("-1", "below 0"), ("", "'count' is missing"),
+        for value, words in (("2.5", "'count' must be a whole number"), ("-1", "-1 is outside the range 0 to 200000 stems"), ("", "'count' is missing"),
                              ("two", "'two' is not a number")):
             refused(survey(f, tally.format("count").replace(",25,4", f",25,{value}")), "plots.csv:4:21", words)
         read(f, tally.format("count").replace("2,400,albero,faggio,15,5\n", "2,400,,,,\n"), {"trees": per_ha((23, 400), (9, 400))})
@@ -251,7 +251,7 @@ def test_status():
         r = survey(f, ONE.format(",status") + "1,400,stump,,30,cut\n1,,tree,,20,live\n")
         expect_in("1 tree, 1 stump; dbh 20 cm", understood(r))
         text = ONE.format(",stato") + "1,400,tree,,20,Italia\n"
-        refused(survey(f, text), "plots.csv:2:16: 'Italia' is no status: live, dead or cut; rename the column")
+        refused(survey(f, text), "plots.csv:2:16: 'Italia' is not a status; write live, dead or cut, or rename the column")
         read(f, text.replace("stato", "paese"), {"trees": 25}, "not used: paese")
 
 
@@ -273,10 +273,10 @@ def test_units():
             expect_in("from circumferences", understood(r), head)
             expect_in("dbh_m: 0.199994,", r.out, head)  # 62.83 / pi
         for head, unit in (("DBH (in)", "cm or mm"), ("dbh_in", "cm or mm"), ("Circonferenza (m)", "cm or mm"), ("diametro [dm]", "cm or mm")):
-            refused(survey(f, ONE.format("").replace("dbh_cm", head) + rows.format(8, 12)), f"'{head}': its values must be in {unit}; convert")
+            refused(survey(f, ONE.format("").replace("dbh_cm", head) + rows.format(8, 12)), f"this column must be in {unit}; convert")
         for head, unit in (("Altezza (dm)", "m"), ("height_ft", "m"), ("slope (gon)", "degrees or %")):
-            refused(survey(f, ONE.format(f",{head}") + rows.format("20,14", "30,16")), f"'{head}': its values must be in {unit}; convert")
-        refused(survey(f, "plot,sup. (are),kind,dbh\n1,4,tree,20\n"), "'sup. (are)': its values must be in m2; convert")
+            refused(survey(f, ONE.format(f",{head}") + rows.format("20,14", "30,16")), f"this column must be in {unit}; convert")
+        refused(survey(f, "plot,sup. (are),kind,dbh\n1,4,tree,20\n"), "this column must be in m2; convert")
         refused(survey(f, ONE.format("").replace("dbh_cm", "dbh_mm") + rows.format("20 cm", "30")), "the first line gives another unit")
         read(f, ONE.format(",d (m)") + rows.format("20,5", "30,6"), {"trees": 25}, "not used: d (m)")
         both = ONE.format(",circ_cm") + "1,400,tree,,20,{}\n1,,tree,,,94.25\n"
@@ -287,10 +287,10 @@ def test_units():
         refused(survey(f, "plot,area_m2,kind\n1,400,tree\n"), "must name the column 'dbh_cm' or 'circumference_cm'; it has: plot, area_m2, kind")
         thick = "plot,area_m2,kind,{}\n1,4000,tree,{}\n"
         for head, value, mended in (("dbh", 320, "dbh_mm"), ("girth", 990, "circumference_mm")):
-            refused(survey(f, thick.format(head, value)), f"Then name the column '{mended}'")
+            refused(survey(f, thick.format(head, value)), f"name the column '{mended}'")
             read(f, thick.format(mended, value), {"trees": 2.5}, "given in mm")
         refused(survey(f, thick.format("dbh_mm", 3200)), "more than 300 cm; correct it")
-        refused(survey(f, ONE.format("") + "1,400,tree,,10-15\n"), "'10-15' is a class: write its middle, 12.5")
+        refused(survey(f, ONE.format("") + "1,400,tree,,10-15\n"), "'10-15' is a class; write its middle, 12.5")
         read(f, ONE.format("") + "1,400,tree,,12.5\n", {"trees": 25})
 
 
@@ -306,19 +306,19 @@ def test_tallies():
         read(f, "plot,area_m2,kind,dbh_cm,stool,shoots\n1,400,shoot,6,1,5\n1,,standard,25,,\n", {"shoots": 125, "stools": 25, "standards": 25})
         read(f, head.format(",n. fusti") + "1,400,15,,2,1,3\n1,,20,,1,,1\n", {"standards": 75, "trees": 25})
         refused(survey(f, head.format(",n. fusti") + "1,400,15,,2,1,4\n"), "'count' is 4, but 'shoots', 'standards' and 'trees' add up to 3")
-        refused(survey(f, "plot,area_m2,kind,dbh_cm,shoots\n1,400,tree,16,5\n"), "this row is of another kind; leave 'shoots' empty here")
+        refused(survey(f, "plot,area_m2,kind,dbh_cm,shoots\n1,400,tree,16,5\n"), "this row has another kind of stem; leave 'shoots' empty here")
         refused(survey(f, head.format("") + "1,400,5,30,,\n"), "plots.csv:2:13", "(column 'stools')")
         classes = "plot,area_m2,dbh_cm,shoots,stools\n1,400,5,30,{}\n1,,10,11,{}\n"
-        for first, second, words in ((50, "", "50 stools with 41 live shoots"), (0, "", "0 stools with 41 live shoots"),
+        for first, second, words in ((50, "", "50 stools do not match 41 live shoots"), (0, "", "0 stools do not match 41 live shoots"),
                                      (2.5, "", "'stools' must be a whole number"),
-                                     (1, 2, "'stools' is 1 elsewhere for this plot, here 2; name the column 'stool' if it numbers")):
+                                     (1, 2, "'stools' is 1 in another row of this plot, here 2; if it numbers the stools")):
             refused(survey(f, classes.format(first, second)), words)
         read(f, classes.format(1, 2).replace("stools", "stool"), {"shoots": 41 * 25, "stools": 50})
         read(f, classes.format(41, 41), {"shoots": 41 * 25, "stools": 41 * 25})
         some = "plot,area_m2,kind,dbh_cm,stool,stools\n1,400,shoot,5,a,{}\n1,,shoot,6,b,\n1,,shoot,6,{},\n"
         refused(survey(f, some.format(2, "")), "plots.csv:4", "other shoots of the plot have one")
-        refused(survey(f, some.format(5, "b")), "5 stools with 3 live shoots")
-        refused(survey(f, some.format(3, "b")), "'stools' is 3, but the shoots of this plot stand on 2; correct it, or remove")
+        refused(survey(f, some.format(5, "b")), "5 stools do not match 3 live shoots")
+        refused(survey(f, some.format(3, "b")), "'stools' is 3, but the shoots of this plot have 2 stools; correct it, or remove")
         read(f, some.format(2, "b"), {"shoots": 75, "stools": 50})
         refused(survey(f, "plot,area_m2,dbh_cm,shoots,stools,spacing_m\n1,400,5,30,9,0.4\n"), "a shoot without a stool has no 'spacing_m'")
 
@@ -328,13 +328,13 @@ def test_sites():
     with Folder() as f:
         for head in ("site", "stand", "compresa", "Particella", "Strato", "Località", "Bestand"):
             read(f, f"{head},plot,area_m2,kind,dbh_cm\nA,1,400,tree,20\nA,1,400,tree,22\nB,1,200,tree,20\nB,2,200,tree,20\n",
-                 {"trees": per_ha((2, 400), (1, 200), (1, 200))}, f"3 plots of 200 to 400 m2, told apart by {head}, 4 trees")
+                 {"trees": per_ha((2, 400), (1, 200), (1, 200))}, f"3 plots of 200 to 400 m2, distinguished by {head}, 4 trees")
         read(f, "comune,particella,plot,area_m2,kind,dbh_cm\nx,14,1,400,tree,20\nx,,1,,tree,22\nx,15,1,400,tree,22\n",
-             {"trees": per_ha((2, 400), (1, 400))}, "2 plots of 400 m2, told apart by particella", "not used: comune")
+             {"trees": per_ha((2, 400), (1, 400))}, "2 plots of 400 m2, distinguished by particella", "not used: comune")
         layers = "strato,plot,area_m2,kind,dbh_cm\nalto,1,400,tree,30\nbasso,1,400,tree,10\nalto,1,400,tree,28\n"
-        refused(survey(f, layers), "plots.csv:4:1: the rows of plot '1' change the column 'strato' in turns", "rename it if not")
+        refused(survey(f, layers), "plots.csv:4:1: the rows of plot '1' alternate between values of 'strato'", "otherwise rename it")
         read(f, layers.replace("strato", "piano"), {"trees": 75}, "not used: piano")
-        read(f, "".join([layers.splitlines(True)[i] for i in (0, 1, 3, 2)]), {"trees": per_ha((2, 400), (1, 400))}, "told apart by strato")
+        read(f, "".join([layers.splitlines(True)[i] for i in (0, 1, 3, 2)]), {"trees": per_ha((2, 400), (1, 400))}, "distinguished by strato")
         refused(survey(f, "site,plot,area_m2,kind,dbh_cm\nA,1,400,tree,20\nB,,,tree,20\n"), "plots.csv:3", "'plot' is missing")
         cases = "site,plot,area_m2,kind,dbh_cm\nA,p1,400,tree,20\n{},{},400,tree,22\n"
         for site, plot in (("A", "P1"), ("a", "p1"), ("a", "P1")):
@@ -343,7 +343,7 @@ def test_sites():
         read(f, cases.format("A", "p2"), {"trees": 25})
         years = "year,plot,area_m2,kind,dbh_cm\n2015,1,400,tree,20\n{},1,,tree,22\n2020,2,400,tree,22\n"
         for head in ("year", "Anno", "INVYR"):
-            refused(survey(f, years.format(2020).replace("year", head)), "plots.csv:3:1: this plot was surveyed in the years 2015 and 2020: keep")
+            refused(survey(f, years.format(2020).replace("year", head)), "plots.csv:3:1: this plot was surveyed in the years 2015 and 2020; keep")
         read(f, years.format(2015), {"trees": per_ha((2, 400), (1, 400))})
         read(f, years.format("").replace("2020,1,,tree,22\n", ""), {"trees": per_ha((2, 400), (1, 400))})
         read(f, years.format(2020).replace("year", "planted"), {"trees": per_ha((2, 400), (1, 400))}, "not used: planted")
@@ -359,13 +359,13 @@ def test_asked():
     with Folder() as f:
         small = "plot,{},kind,dbh\n1,{},tree,4\n"
         for head, value, mended, area in (("area", 5, "area_m2", 5), ("sup.", 9.9, "area (m2)", 9.9), ("raggio", 1.5, "radius_m", math.pi * 2.25)):
-            refused(survey(f, small.format(head, value)), "plots.csv:2:3: a plot of", "is very small; name the column '")
+            refused(survey(f, small.format(head, value)), "plots.csv:2:3: a plot of", "is very small; if it is right, name the column '")
             read(f, small.format(mended, value), {"trees": 10000 / area})
         read(f, small.format("area", 10), {"trees": 1000})
         slopes = "saggio;superficie;{};tipo;diametro\n1;400;{};albero;20\n2;400;{};albero;22\n"
         steep = 400 * math.cos(math.radians(50))
         for head in ("pendenza", "Slope", "Neigung"):
-            refused(survey(f, slopes.format(head, 50, 30)), "plots.csv:2:7: a slope of 50 without a unit", "'slope_deg'", "'slope (%)'")
+            refused(survey(f, slopes.format(head, 50, 30)), "plots.csv:2:7: a slope of 50 has no unit", "'slope_deg'", "'slope (%)'")
             for unit in ("_deg", " (gradi)", "_gradi", " (°)"):
                 read(f, slopes.format(head + unit, 50, 0), {"trees": per_ha((1, steep), (1, 400))}, "slopes 0 to 50 degrees")
             for unit in (" (%)", " %", " perc."):
@@ -377,26 +377,26 @@ def test_asked():
             refused(survey(f, slopes.format(head + "_deg", "80%", "35")), "plots.csv:2:7: the first line gives another unit")
         sizes = "plot,area_m2,kind,{},{}\n1,4000,tree,{},{}\n1,,tree,{},{}\n"
         for head, mended in (("diametro", "diametro_mm"), ("DBH", "dbh_mm"), ("DAP", "DAP (mm)"), ("girth", "circumference_mm")):
-            refused(survey(f, sizes.format(head, "height", 160, 12, 180, 13)), "a mean diameter of", "_mm' if it is in millimetres", "_cm' if it is in")
+            refused(survey(f, sizes.format(head, "height", 160, 12, 180, 13)), "the mean diameter is", "_mm' for millimetres", "_cm' for")
             read(f, sizes.format(mended, "height", 160, 12, 180, 13), {"trees": 5}, "given in mm")
         read(f, sizes.format("dbh_cm", "height", 160, 12, 180, 13), {"trees": 5}, "dbh 160 to 180 cm")
         read(f, sizes.format("dbh", "height", 60, 22, 70, 24), {"trees": 5})
         basal = "plot,{},kind,{}\n" + "1,50,tree,60\n" * 2  # 113 m2 per ha
-        refused(survey(f, basal.format("area", "dbh")), "plots.csv:1:16: a basal area of 113 m2/ha is very high: name the columns 'area_m2' and 'dbh_cm'")
-        refused(survey(f, basal.format("area", "dbh_cm")), "plots.csv:1:6: a basal area of 113 m2/ha")
+        refused(survey(f, basal.format("area", "dbh")), "plots.csv:1:16: the basal area is very high, 113 m2/ha; name the columns 'area_m2' and 'dbh_cm'")
+        refused(survey(f, basal.format("area", "dbh_cm")), "plots.csv:1:6: the basal area is very high, 113 m2/ha")
         refused(survey(f, basal.format("area_m2", "dbh")), "'dbh_mm' if the diameters are in millimetres")
         read(f, basal.format("area_m2", "dbh_cm"), {"trees": 400}, "basal area 113 m2/ha")
         read(f, basal.format("area_m2", "dbh_mm"), {"trees": 400}, "basal area 1.13 m2/ha")
         refused(survey(f, basal.format("raggio", "girth").replace("50", "4").replace("60", "190")), "'radius_m' and 'circumference_cm'")
-        refused(survey(f, basal.format("area_m2", "dbh_cm").replace("50", "15")), "377 m2/ha is more than any forest has")
+        refused(survey(f, basal.format("area_m2", "dbh_cm").replace("50", "15")), "377 m2/ha, more than any forest has")
         high = "plot,area_m2,kind,dbh,{}\n1,400,tree,20,120\n"
         for head in ("alt", "alt. (m)", "H"):
-            refused(survey(f, high.format(head)), "a mean height of 120 m: name the column 'height_m'", "'altitude'")
+            refused(survey(f, high.format(head)), "the mean height is 120 m; name the column 'height_m'", "'altitude'")
             read(f, high.format("altitude"), {"trees": 25}, "not used: altitude")
         read(f, high.format("height_m"), {"trees": 25})
         low = "plot,area_m2,kind,dbh,height\n1,400,tree,20,{}\n"
-        refused(survey(f, low.format(1.2)), "1.2 m is no height of a stem of this kind", "leave it empty if it was not measured")
-        refused(survey(f, low.format(0)), "0 m is no height of a stem of this kind")
+        refused(survey(f, low.format(1.2)), "1.2 m is outside the range of heights here", "leave the cell empty if it was not measured")
+        refused(survey(f, low.format(0)), "0 m is outside the range of heights here")
         read(f, low.format(""), {"trees": 25})
 
 
@@ -406,7 +406,7 @@ def test_chestnut():
         rows = "".join(f"1;500;pollone;castagno;{i // 4};{i};{d};{status};\n" for i, (d, status) in enumerate(CHESTNUT))
         text = "Saggio;Superficie;Tipo;Specie;Ceppaia;ID pollone;{};Vitalità;\n" + rows
         live = sum(status == "v" for _, status in CHESTNUT)
-        refused(survey(f, text.format("Diametro")), "a basal area of", "name the columns 'area_m2' and 'dbh_cm' if it is right, 'dbh_mm' if")
+        refused(survey(f, text.format("Diametro")), "the basal area is very high", "name the columns 'area_m2' and 'dbh_cm' if it is right, 'dbh_mm' if")
         stools = len({i // 4 for i, (_, status) in enumerate(CHESTNUT) if status == "v"})
         for head, area in (("dbh_mm", "Superficie"), ("Diametro (mm)", "Superficie"), ("dbh_cm", "area_m2")):
             read(f, text.format(head).replace("Superficie", area), {"shoots": live * 20, "stools": stools * 20}, "4 dead and 2 cut left out")
@@ -420,8 +420,8 @@ def test_names():
         read(f, head + good, {"shoots": 100, "stools": 50}, "2 shoots on 1 stool")
         for row, place in (('1",200,shoot,beech,3,6\n', ":2:1"), ('1,200,shoot,beech,3",6\n', ":2:19"), ('1,200,sho"ot,beech,3,6\n', ":2:7"),
                            ('1,200,shoot,bee"ch,3,6\n', ":2:13"), ('1,200,shoot,beech,"3""",6\n', ":2:19")):
-            refused(survey(f, head + row + "1,,shoot,beech,3,7\n"), f"plots.csv{place}: a quote within a name is a slip; remove it")
-        refused(survey(f, head + '1,200,shoot,beech,"3\n4",6\n'), "plots.csv:2:19: a line break within a name is a slip")
+            refused(survey(f, head + row + "1,,shoot,beech,3,7\n"), f"plots.csv{place}: a stray quote in this cell; remove it")
+        refused(survey(f, head + '1,200,shoot,beech,"3\n4",6\n'), "plots.csv:2:19: a line break in a name")
         read(f, head.replace("\n", ",note\n") + '1,200,shoot,beech,3,6,6" thick\n', {"shoots": 50, "stools": 50}, "not used: note")
 
 

@@ -284,7 +284,7 @@ static enum ceduo_status ask_uncertainty(struct ceduo_uncertainty_def def)
     enum ceduo_status status = ceduo_uncertainty_compute(&def, &answer);
     if (status == CEDUO_OK) {
         add(&answer.figures[CEDUO_UNCERTAINTY_ENERGY].fit.p50, sizeof answer.figures[CEDUO_UNCERTAINTY_ENERGY].fit.p50);
-        add(answer.today.orders, answer.today.count * sizeof answer.today.orders[0]);
+        add(answer.orders, answer.orders_count * sizeof answer.orders[0]);
         ceduo_uncertainty_free(&answer);
     }
     return status;

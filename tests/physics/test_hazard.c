@@ -141,7 +141,7 @@ TEST(equal_weights_change_nothing)
     static struct weighted values[N];
     for (size_t n = 0; n <= N; n += 125) {
         const double weight = 3;
-        struct released all = {.n = N, .w = N * weight, .ww = N * weight * weight, .per_year = 1};
+        struct weight_totals all = {.n = N, .w = N * weight, .ww = N * weight * weight, .per_year = 1};
         struct weighted_sum ones = {0};
         fill_values(values, weight, n);
         for (size_t i = 0; i < n; i++)
@@ -177,7 +177,7 @@ TEST(equal_weights_change_nothing)
 /* A share that the weights explain has no error: with a weight of all rocks it is 1, with no weight 0. */
 TEST(weights_explain_without_error)
 {
-    struct released all = {.n = N, .per_year = 1};
+    struct weight_totals all = {.n = N, .per_year = 1};
     struct weighted_sum ones = {0}, none = {0}, fives = {0};
     for (size_t i = 0; i < N; i++) {
         double w = i % 2 ? 0.5 : 1.5;
@@ -217,7 +217,7 @@ TEST(quantiles_by_hand)
          (ceduo_weighted_quantile(values, 3, 0.76), 3, 0));
     EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* rate_above all values */
     assert_true(isnan(ceduo_weighted_quantile(values, 0, 0.5)));
-    const struct released all = {.n = 3, .w = 4, .ww = 6, .per_year = 1};
+    const struct weight_totals all = {.n = 3, .w = 4, .ww = 6, .per_year = 1};
     struct weighted one = {5, 1};
     struct ceduo_distribution d = ceduo_weighted_distribution(&all, &one, 1);
     EXPECT_NEAR(d.mean, 5, 0);
@@ -244,7 +244,7 @@ TEST(energies_and_classes_match_their_names)
 /* Three rocks of a thousand arrive, one block falls in two years. */
 TEST(few_rocks_give_bounds)
 {
-    const struct released all = {.n = N, .w = N, .ww = N, .per_year = 0.5};
+    const struct weight_totals all = {.n = N, .w = N, .ww = N, .per_year = 0.5};
     struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 3, 5e4, &h, NULL));
@@ -268,7 +268,7 @@ TEST(few_rocks_give_bounds)
 /* Kish's effective number: 500 rocks of weight 1.9 and 500 of 0.1 equal 1000²/(500 (1.9² + 0.1²)) rocks of equal weight. */
 TEST(rocks_count_by_their_weights)
 {
-    const struct released all = {.n = N, .w = N, .ww = 500 * (1.9 * 1.9 + .1 * .1), .per_year = 1};
+    const struct weight_totals all = {.n = N, .w = N, .ww = 500 * (1.9 * 1.9 + .1 * .1), .per_year = 1};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, NULL, 0, 5, &h, NULL));
     EXPECT_NEAR(h.effective, 1e6 / 1810, 1e-9);
@@ -277,7 +277,7 @@ TEST(rocks_count_by_their_weights)
 /* The last energy of the curve is its maximum. */
 TEST(a_curve_ends_at_its_last_energy)
 {
-    const struct released all = {.n = 2, .w = 2, .ww = 2, .per_year = 1};
+    const struct weight_totals all = {.n = 2, .w = 2, .ww = 2, .per_year = 1};
     struct weighted energies[] = {{1e10, 1}, {1e10, 1}};
     struct ceduo_hazard h;
     struct ceduo_hazard_curve curve;
@@ -290,7 +290,7 @@ TEST(a_curve_ends_at_its_last_energy)
  * of a thousand blocks and ten a year, 1/100. */
 TEST(at_a_limit)
 {
-    const struct released all = {.n = N, .w = N, .ww = N, .per_year = 10};
+    const struct weight_totals all = {.n = N, .w = N, .ww = N, .per_year = 10};
     struct weighted energies[] = {{3e5, 1}, {3e4, 1}};
     struct ceduo_hazard h;
     struct ceduo_hazard_curve curve;
@@ -309,7 +309,7 @@ TEST(at_a_limit)
 /* None of two hundred rocks arrives: only upper bounds are known. */
 TEST(no_rock_arrives)
 {
-    const struct released all = {.n = 200, .w = 200, .ww = 200, .per_year = 1};
+    const struct weight_totals all = {.n = 200, .w = 200, .ww = 200, .per_year = 1};
     struct ceduo_hazard h;
     struct ceduo_hazard_curve curve;
     assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h, &curve));
@@ -328,7 +328,7 @@ TEST(fewer_arrivals_raise_no_upper_end)
 {
     static struct weighted could[N];
     struct weighted energies[] = {{6, 0.1}, {7, 0.1}, {8, 0.1}, {9, 0.1}, {9.5, 0.1}};
-    struct released all = {.n = N, .per_year = 1, .could = could};
+    struct weight_totals all = {.n = N, .per_year = 1, .max_energies = could};
     double of_all = 3.8414588 / (N + 3.8414588), of_large = 0.05 * 3.8414588 / (N / 2 + 3.8414588), before = 0;
     for (size_t i = 0; i < N; i++) {
         could[i] = i % 2 ? (struct weighted){10, 0.1} : (struct weighted){5, 1.9};

@@ -192,7 +192,7 @@ TEST(flights_land_as_without_blocks)
             if (!above && f.vz * g.segments[j].c - f.vx * g.segments[j].s <= 0) /* into the ground */
                 f.vz = f.vx * g.segments[j].m + 1e-3 * speed;
             struct landing a = next_landing(&g, &f), b = next_landing(&plain, &f);
-            EXPECT_SAME(a, b, t, x, z, segment, left);
+            EXPECT_SAME(a, b, t, x, z, segment, off_slope);
             far += a.segment > j + 100 || a.segment + 100 < j;
         }
     }
@@ -246,8 +246,8 @@ TEST(flights_along_teeth_have_the_same_contacts_with_blocks)
                                .segment = dir > 0 ? 0 : g.n - 1,
                                .on_ground = false};
             struct landing a = next_landing(&g, &f), b = next_landing(&plain, &f);
-            EXPECT_SAME(a, b, t, x, z, segment, left);
-            touched += !b.left;
+            EXPECT_SAME(a, b, t, x, z, segment, off_slope);
+            touched += !b.off_slope;
         }
     }
     print_message("%ju of 4000 flights touch a tooth\n", (uintmax_t)touched);

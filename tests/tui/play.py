@@ -169,13 +169,14 @@ class Screen:
     def lights_ahead(self):
         """The same with the second sign, of the worst year ahead; None without one."""
         found, words_of = {}, {"✔": "passes", "+": "passes", "✘": "FAILS", "x": "FAILS", "?": "unknown", "": None}
-        for name, pattern in (("Contact", r"^(?:ADC|gap)\b(.*)"), ("Free run", r"^[\d.]+ m free (.*)"), ("Energy", r"^energy\b(.*)")):
-            match = re.search(pattern + " ([✔✘+x?])([✔✘+x?]?)$", self.now, re.M)
+        for name, pattern in (("Contact", r"^(?:ADC|gap) m"), ("Free run", r"^free run %"), ("Energy", r"^energy %")):
+            match = re.search(pattern + r" +(\S+) +(?:(<|≤|<=) ([\d.]+) )?([✔✘+x?])([✔✘+x?]?)$", self.now, re.M)
             expect(match, f"no test '{name}' in the column on the right:", self)
-            words, sign, ahead = match.groups()
-            good, bad = re.search(r" (<|≤|<=) ", words), re.search(r" (≥|>|>=) |no (stems|forest)", words)
-            expect(sign not in "✔+" or good, f"the sign {sign!r} does not go with {name}{words}", self)
-            expect(sign not in "✘x" or bad, f"the sign {sign!r} does not go with {name}{words}", self)
+            value, below, limit, sign, ahead = match.groups()
+            if sign != "?":
+                value, limit = float("inf" if value == "none" else value), float(limit)
+                kept = value < limit if below == "<" else value <= limit
+                expect(kept == (sign in "✔+"), f"the sign {sign!r} does not go with {name} {value} {limit}", self)
             found[name] = (words_of[sign], words_of[ahead])
         return found
 

@@ -19,7 +19,7 @@ FIGURE_NAMES = ("arrive", "above 250 kJ", "mean kJ", "95 % below kJ")
 
 def index_of(screen):
     """What the index takes and leaves, of the column on the right."""
-    found = re.search(r"^taken ([\d.]+) left ([\d.]+) kJ$", screen.now, re.M)
+    found = re.search(r"^taken kJ +([\d.]+)\nleft kJ +([\d.]+)$", screen.now, re.M)
     expect(found, "no index in the column on the right:", screen.now)
     return float(found.group(1)), float(found.group(2))
 
@@ -530,7 +530,7 @@ def test_blocks_without_size():
         mean = 0.1 * math.log(10) / (1 - 0.1)  # of v^-1 from 0.1 to 1
         expect_in("ADC and index are of one rock: 170.2 kg, mean diameter B 0.5 m", " ".join(sized.body.split()))
         expect_in(f"ADC and index are of one rock: {mean * 2600:.1f} kg", " ".join(none.body.split()))
-        expect_in("'diameter_m' is missing: the shape 'cylinder' needs it", refused.note)
+        expect_in("'diameter_m' is missing; the shape 'cylinder' needs it", refused.note)
         expect("filled in" not in block.note, block)
         check_good(place.path, "sizes.yaml")
         expect_in("rock: {shape: cylinder}", place.text("sizes.yaml"))

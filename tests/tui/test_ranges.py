@@ -41,7 +41,7 @@ def test_ranges():
             expect(accepts(place, "fast.yaml", path, lo), f"{path}: the scene refuses {lo}, the lower end")
             expect(accepts(place, "fast.yaml", path, hi), f"{path}: the scene refuses {hi}, the upper end")
         words = re.search(r"values from +(\S+) to +(\S+)", screens[10].popup).groups()
-        expect_equal(words, ("300", "9500"), "stools per ha: a stool has one shoot at least, 9500 shoots stand there")
+        expect_equal(words, ("300", "9500"), "stools per ha: each stool needs one, 9500 shoots stand there")
 
 
 def test_ranges_of_places():

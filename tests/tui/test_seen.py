@@ -123,7 +123,7 @@ def test_typed():
     expect(re.search(r"^1 +41 44\.5 52 61 +6 +-$", stops.body, re.M), stops)
     refused.has("'sixty' is not a number")
     wrong.has("how many passed a place")
-    expect_in(" 9 were seen of 6 released", wrong.popup, "nine of six")
+    expect_in(" 9 observed, but only 6 released; correct one", wrong.popup, "nine of six")
     for row in (r"2 +60 +2 +6", r"3 +20 +1\.5 2 2\.5 +- +- +-", r"4 +10 +30 +0\.8 1\.1 +- +-"):
         expect(re.search(rf"^{row}$", all_.body, re.M), row, all_)
     expect(re.search(r"^2 +60 +3 +6$", edited.body, re.M), edited)
@@ -207,7 +207,7 @@ def test_fit_taken():
         best, lo, hi = map(float, re.search(r"speed along, m/s ([\d.]+) \(([\d.]+)–([\d.]+)\)", screen.body).groups())
         expect(abs(speed_at_gate(best) - 22) < 0.15 and abs(lo - 10.02 + slope) < 0.1 and abs(hi - 10.02 - slope) < 0.1, screen)
         says(screen, "Fitted. Enter takes these values", "The fit does not hold for what was to check it: too slow.")
-    says(large, "The model can give all that it was fitted to.", "a hundred metres beside it may be another.")
+    says(large, "The model reproduces all fitted observations.", "a hundred metres beside it may be another.")
     says(large, "It does not keep all that fits as well, the draws.", "-n 100 -o FITTED.yaml SCENE.yaml")
     expect_in("the scene has the values and their ranges, not the draws; u takes them back", taken.note)
     expect("*" in taken.title and "*" not in saved.title, "a star while it is unsaved", taken, saved)
@@ -345,7 +345,7 @@ def test_quarry():
     for screen in (small, large):
         says(screen, "farther:", "does not give what was seen: stops")
         expect(re.search(rf"^stops +{mean:.0f} m .* OUTSIDE$", screen.body, re.M), screen)
-    says(fitted, "roughness, m", "friction", "The model can give all that it was fitted to.")
+    says(fitted, "roughness, m", "friction", "The model reproduces all fitted observations.")
     says(taken, "The scene as it is can give all that was seen.")
     expect(re.search(rf"^stops +{mean:.0f} m .* inside$", taken.body, re.M), taken)
 

@@ -861,12 +861,12 @@ def test_uncertainty_of_the_shown_option_first():
     with Place() as place, Tmux(place, 120, 40) as t:
         t.start("four-systems")
         t.keys("7")
-        shown = r"uncertainty (\d+–\d+)\)"
-        first = re.search(shown, t.sees("of 1000 (rocks ", "; doubt "))
+        shown = r"^simple coppice, 25.* (\d+–\d+) +│"
+        first = re.search(shown, t.sees("90 % range", "├"), re.M)
         all_of_them = until("the uncertainty of all options",
-                            lambda: (lambda s: len(re.findall(r"^[a-z].* \(\d+–\d+\) ", s, re.M)) >= 8 and s)(t.screen()))
-        expect(first and first[1] == re.search(shown, all_of_them)[1], first, all_of_them)
-        expect(re.search(r"│   may be +\d+–\d+$", all_of_them, re.M), all_of_them)
+                            lambda: (lambda s: len(re.findall(r"^[a-z].*├.* \d+–\d+ +│", s, re.M)) >= 8 and s)(t.screen()))
+        expect(first and first[1] == re.search(shown, all_of_them, re.M)[1], first, all_of_them)
+        expect(re.search(r"│   90 % range +\d+–\d+$", all_of_them, re.M), all_of_them)
         t.keys("q")
 
 

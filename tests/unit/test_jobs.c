@@ -217,7 +217,7 @@ TEST_WITH(the_shown_option_has_its_uncertainty_first, set_up_options, tear_down)
         if (i != shown)
             EXPECT_NAN(ceduo_uncertainty_find_figure(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5);
     EXPECT_NAN(ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, true)->fit.p95);
-    assert_int_equal(ceduo_uncertainty_ranking_by(a)->count, 0);
+    assert_int_equal(a->orders_count, 0);
     a = &uncertainty(shown, UNCERTAINTY_LEVELS)->answer;
     f = ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
     EXPECT(f->fit.p5, ==, p5);
@@ -225,8 +225,8 @@ TEST_WITH(the_shown_option_has_its_uncertainty_first, set_up_options, tear_down)
     EXPECT(f->fit.left[f->order[0]], ==, leaves);
     for (size_t i = 0; i < n; i++)
         EXPECT(ceduo_uncertainty_find_figure(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5, >, 0);
-    assert_int_equal(ceduo_uncertainty_ranking_by(a)->count, n - 1);
-    assert_true(ceduo_uncertainty_ranking_by(a)->rotation);
+    assert_int_equal(a->orders_count, n - 1);
+    assert_true(a->rotation);
 }
 
 /* A stopped job ends soon, without a result. */

@@ -21,6 +21,7 @@ static struct ceduo_arrivals bare, wooded;
 static struct ceduo_stand_result stand;
 static struct ceduo_index index_;
 static struct ceduo_option_result option_result;
+static struct ceduo_alternative_energy other;
 static struct ceduo_result result;
 static struct ceduo_years_summary years;
 static struct ceduo_choice choice;
@@ -56,14 +57,16 @@ static int open_site(void **state)
     set_share(&wooded, .031, .022, .043);
     stand = (struct ceduo_stand_result){0};
     option_result = (struct ceduo_option_result){
-        .stands = &stand, .controls = &index_, .wooded = {.rocks = 1000, .controls = 1, .arrivals = &wooded}};
+
+        .stands = &stand, .controls = &index_, .others = &other, .wooded = {.rocks = 1000, .controls = 1, .arrivals = &wooded}};
     result = (struct ceduo_result){.scene = &scene,
                                    .wooded = true,
                                    .bare = {.rocks = 1000, .controls = 1, .arrivals = &bare},
                                    .options_count = 1,
                                    .options = &option_result};
     years = (struct ceduo_years_summary){.years = 25, .simulated = 25, .exceed = {.19, .01, 0}, .worst = .489, .worst_year = 1};
-    choice = (struct ceduo_choice){.ahead = &years, .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}, .energy_known = true};
+    choice =
+        (struct ceduo_choice){.ahead = &years, .over = &years, .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}, .energy_known = true};
     verdict = (struct ceduo_verdict){.wooded = true, .accepted = true, .n = 1, .choices = &choice};
     memset(figures, 0, sizeof figures);
     answer = (struct ceduo_uncertainty_result){.figures = figures, .figures_count = CEDUO_UNCERTAINTY_KINDS, .rotation = true};
@@ -76,7 +79,6 @@ static void set_failing(size_t failing, size_t lo, size_t hi)
     years.unprotected_energy = failing;
     years.failing_lo = lo;
     years.failing_hi = hi;
-    choice.over = years;
 }
 
 static void set_range(enum ceduo_uncertainty_kind kind, double p5, double p95)
@@ -217,7 +219,7 @@ TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
     expect_words(0, 84, "✔ YES today; ✘ NO after the cut: 489 of 1000 in year 1, above 50 in 17 of 25 years");
     expect_words(0, 60, "✔ YES today; ✘ NO after the cut: 489 of 1000 in year 1");
     set_failing(0, 0, 0);
-    years.worst = choice.over.worst = .043;
+    years.worst = .043;
     expect_words(0, 200, "✔ YES: in every year of 25 at most 43 of 1000 rocks exceed 50 kJ; today 31 (YES)");
     set_share(&bare, .004, .001, .01);
     expect_words(0, 200,

@@ -520,7 +520,7 @@ TEST_WOODED(a_point_for_each_option)
     p.verdict = &verdict;
     expect(CEDUO_PLOT_TRADEOFF, 60, 16, ASCII, "a-point-for-each-option");
     choices[0].yield.cut_per_year = choices[1].yield.cut_per_year = NAN;
-    assert_true(shows(CEDUO_PLOT_TRADEOFF, 60, 16, "no option says how it grows and is cut"));
+    assert_true(shows(CEDUO_PLOT_TRADEOFF, 60, 16, "no option has growth and cutting data"));
     assert_true(shows(CEDUO_PLOT_TRADEOFF, 20, 16, "too narrow"));
     p.verdict = NULL;
     assert_true(shows(CEDUO_PLOT_TRADEOFF, 60, 16, "not computed yet"));

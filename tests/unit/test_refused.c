@@ -300,14 +300,14 @@ TEST(tables_of_stools_have_a_limit)
     const struct ceduo_rock rock = {.mean_diameter = .68};
     struct wood wood;
     assert_true(ceduo_wood_init(&wood, simulation, &site.option, &rock));
-    EXPECT(wood.places, >=, 63);
-    EXPECT(wood.places, <, 1000);
+    EXPECT(wood.met_mask, >=, 63);
+    EXPECT(wood.met_mask, <, 1000);
     ceduo_wood_release(&wood);
     site.belts[0].stand.stools_per_ha = 1e6;
     site.plots[0].shoots.per_ha = 1e10;
     site.belts[0].stand.spacing = 20;
     assert_true(ceduo_wood_init(&wood, simulation, &site.option, &rock));
-    assert_int_equal(wood.places, ((size_t)1 << 20) - 1); /* more than the limit of a million stems per trajectory */
+    assert_int_equal(wood.met_mask, ((size_t)1 << 20) - 1); /* more than the million stems of a way */
     ceduo_wood_release(&wood);
 }
 

@@ -186,10 +186,9 @@ static void expect_order(void)
     double better = 0;
     for (size_t p = 0; p < POINTS; p++)
         better += (means[OPTIONS][p] < 0) / (double)POINTS;
-    const struct ceduo_uncertainty_ranking *ranking = ceduo_uncertainty_ranking_by(&answer);
-    assert_true(ranking->rotation);
-    EXPECT(ranking->count, ==, 1);
-    const struct ceduo_uncertainty_order *o = ranking->orders;
+    assert_true(answer.rotation);
+    EXPECT(answer.orders_count, ==, 1);
+    const struct ceduo_uncertainty_order *o = answer.orders;
     EXPECT(o->better, ==, 1);
     EXPECT(o->than, ==, 0);
     EXPECT_NEAR(o->probability + o->equal + o->worse, 1, 1e-12);
@@ -247,7 +246,7 @@ TEST(one_option_alone_over_a_rotation)
         assert_memory_equal(f->values, g->values, 16 * sizeof *f->values);
         assert_null(ceduo_uncertainty_find_figure(&alone, 0, (enum ceduo_uncertainty_kind)kind, false)->fit.values);
     }
-    EXPECT(ceduo_uncertainty_ranking_by(&alone)->count, ==, 0);
+    EXPECT(alone.orders_count, ==, 0);
     ceduo_uncertainty_free(&alone);
     ceduo_uncertainty_free(&answer);
     ceduo_scene_release(&file);
@@ -288,7 +287,6 @@ TEST(figures_over_a_rotation)
     file.scene.simulation.contact_model = CEDUO_INDEX;
     ask(2, 8, &answer);
     assert_false(answer.rotation);
-    assert_false(ceduo_uncertainty_ranking_by(&answer)->rotation);
     assert_null(ceduo_uncertainty_find_figure(&answer, 0, CEDUO_UNCERTAINTY_MEAN, false)->fit.values);
     ceduo_uncertainty_free(&answer);
     ceduo_scene_release(&file);

@@ -9,7 +9,7 @@
 #include <poll.h>
 
 #include "model/live.h"
-#include "view/pane.h"
+#include "view/page_parts.h"
 
 static struct scene_file file;
 static struct live live;
@@ -156,10 +156,10 @@ TEST(an_edit_of_the_contact_model_leaves_no_years)
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     ceduo_live_follow(&live, &file, 0, 0, 0);
-    EXPECT(live.verdict.choices[0].over.years, ==, 0);
+    EXPECT(live.verdict.choices[0].over->years, ==, 0);
     follow_to_the_end();
-    EXPECT(live.verdict.choices[0].over.years, >, 0);
-    EXPECT(live.verdict.choices[0].over.simulated, ==, 0);
+    EXPECT(live.verdict.choices[0].over->years, >, 0);
+    EXPECT(live.verdict.choices[0].over->simulated, ==, 0);
     EXPECT_NAN(live.verdict.choices[0].mean.mean);
     close_scene();
 }
@@ -312,11 +312,10 @@ TEST_WITH(an_option_of_equal_yield_can_be_beaten, open_made, close_made)
 static int count_worst(const struct ceduo_verdict *v)
 {
     const struct ceduo_report report = {.file = &file, .result = &made.result, .verdict = v, .ahead = made.of};
-    const struct ceduo_pane pane = {.report = &report, .height = 40};
     LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 120};
     LOCAL_TEXT(text);
     int n = 0;
-    ceduo_pane_options(&page, &pane, 0, OPTIONS);
+    ceduo_page_options(&page, &report, CEDUO_OPTIONS_PANE, made.result.last_control, 0, 0, OPTIONS);
     ceduo_page_print(&text, &page, false);
     for (const char *p = ceduo_text_string(&text); (p = strstr(p, "worst")); p++)
         n++;

@@ -119,7 +119,7 @@ TEST(the_other_law_is_compared_with_what_is_known)
         assert_int_equal(ceduo_result_assess(&scene.scene, &bare, wooded, differences, others, &result), CEDUO_OK);
         LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 80};
         LOCAL_TEXT(text);
-        ceduo_page_laws(&page, result);
+        ceduo_page_laws(&page, &(struct ceduo_report){.result = result});
         ceduo_page_print(&text, &page, true);
         int rows = 0;
         for (const char *p = ceduo_text_string(&text); (p = strstr(p, "dorren")); p++)
@@ -306,6 +306,7 @@ static struct ceduo_verdict made;
 
 static void make_verdict(const double mean[OPTIONS], const double today[OPTIONS], size_t best, size_t best_today)
 {
+    static const struct ceduo_years_summary over = {.years = 25, .simulated = 25};
     open_scene(50e3);
     memset(rivals, 0, sizeof rivals);
     made = (struct ceduo_verdict){.wooded = true,
@@ -315,10 +316,8 @@ static void make_verdict(const double mean[OPTIONS], const double today[OPTIONS]
                                   .today = {.known = true, .best = best_today, .rival = rivals[0]},
                                   .rotation = {.known = true, .best = best, .rival = rivals[1]}};
     for (size_t i = 0; i < OPTIONS; i++)
-        choices[i] = (struct ceduo_choice){.mean = {mean[i], .01},
-                                           .today = {today[i], .01},
-                                           .over = {.years = 25, .simulated = 25},
-                                           .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}};
+        choices[i] = (struct ceduo_choice){
+            .mean = {mean[i], .01}, .today = {today[i], .01}, .over = &over, .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}};
 }
 
 static void expect_made(const char *wanted)

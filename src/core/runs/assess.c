@@ -5,78 +5,81 @@
 
 #include "core/stand/strata.h"
 
-/* ---- stems that count ---- */
+/* ---- counted stems ---- */
 
-static struct ceduo_stand from_dbh(const struct ceduo_stand *stand, double dbh)
+static struct ceduo_stand count_from_dbh(const struct ceduo_stand *stand, double dbh)
 {
     struct ceduo_stand counted = *stand;
     counted.counted_from = dbh;
     return counted;
 }
 
-/* For the lights, what lies low does not count: a rock flies over it. */
-static struct ceduo_stand standing(const struct ceduo_stand *stand, double dbh)
+/* The lights do not count stumps and logs, because rocks fly over them. */
+static struct ceduo_stand count_standing_from(const struct ceduo_stand *stand, double dbh)
 {
-    struct ceduo_stand counted = from_dbh(stand, dbh);
+    struct ceduo_stand counted = count_from_dbh(stand, dbh);
     counted.stumps.per_ha = counted.logs.per_ha = 0;
     return counted;
 }
 
-/* Trees of a group are met together, so that a way without any is likelier than by crofton, which has them one by one: by
- * this in the exponent. `within`: no tree stands on `length` m; otherwise none of the groups that have their centre there is met. */
-static double less_by_groups(const struct ceduo_stand *stand, double b, double length, bool within)
+/* Return the correction of the exponent for groups: trees of a group are met together, so a path without contacts is likelier
+ * than by crofton, which assumes independent trees. `finite`: no tree stands on `length` m; otherwise no group with its centre
+ * there is met. */
+static double group_correction(const struct ceduo_stand *stand, double b, double length, bool finite)
 {
-    double more = 0;
+    double correction = 0;
     for (size_t i = 0; i < stand->trees_count; i++) {
         const struct ceduo_stems *t = &stand->trees[i];
         if (!ceduo_stems_are_grouped(t) || !(t->dbh >= stand->counted_from))
             continue;
         struct group_shape shape = {.n = t->group, .radius = t->group_radius, .width = b + t->dbh};
-        double met = within ? ceduo_groups_met_within(&shape, length) : ceduo_groups_met_along(&shape, length);
-        more += t->per_ha / HECTARE * (length * shape.width - met / t->group);
+        double groups_met = finite ? ceduo_groups_met_within(&shape, length) : ceduo_groups_met_along(&shape, length);
+        correction += t->per_ha / HECTARE * (length * shape.width - groups_met / t->group);
     }
-    return more;
+    return correction;
 }
 
-static double chance_of_none(double contacts, double less)
+static double no_contact_probability(double contacts, double correction)
 {
-    return exp(fmin(0, less - contacts));
+    return exp(fmin(0, correction - contacts));
 }
 
-/* How often a rock meets the stems that count. */
-struct met {
+/* ADC (m) and probability of a free run of the counted stems. */
+struct contact_frequency {
     double adc, free_run;
 };
 
-static struct met meet_counted(const struct ceduo_scene *scene, const struct ceduo_stand *counted)
+static struct contact_frequency assess_counted(const struct ceduo_scene *scene, const struct ceduo_stand *counted)
 {
     double b = ceduo_rock_mean(&scene->rock).mean_diameter, threshold = scene->simulation.threshold;
     struct ceduo_adc adc = ceduo_adc(counted, b);
     if (isinf(adc.crofton))
-        return (struct met){INFINITY, 1};
-    return (struct met){ceduo_adc_value(&adc, ceduo_adc_rule(counted, b, scene->simulation.rule)),
-                        chance_of_none(threshold / adc.crofton, less_by_groups(counted, b, threshold, true))};
+        return (struct contact_frequency){INFINITY, 1};
+    return (struct contact_frequency){
+        ceduo_adc_value(&adc, ceduo_adc_rule(counted, b, scene->simulation.rule)),
+        no_contact_probability(threshold / adc.crofton, group_correction(counted, b, threshold, true))};
 }
 
-/* Fewer stems are not met more often, though their mean diameter may make a form say so. */
-static struct met meet(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh)
+/* Counting fewer stems must not shorten the ADC, although forms with the mean diameter can. */
+static struct contact_frequency assess_contacts(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh)
 {
-    const struct ceduo_stand all = standing(stand, scene->simulation.contact_dbh), thick = standing(stand, dbh);
-    struct met met = meet_counted(scene, &all), fewer = meet_counted(scene, &thick);
-    return (struct met){fmax(met.adc, fewer.adc), fmax(met.free_run, fewer.free_run)};
+    const struct ceduo_stand all = count_standing_from(stand, scene->simulation.contact_dbh),
+                             thick = count_standing_from(stand, dbh);
+    struct contact_frequency frequency = assess_counted(scene, &all), fewer = assess_counted(scene, &thick);
+    return (struct contact_frequency){fmax(frequency.adc, fewer.adc), fmax(frequency.free_run, fewer.free_run)};
 }
 
-static void add_meeting(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh,
-                        struct ceduo_contact_check *meeting)
+static void add_belt_check(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh,
+                           struct ceduo_contact_check *meeting)
 {
-    struct met met = meet(scene, stand, dbh);
-    meeting->worst_adc = fmax(meeting->worst_adc, met.adc);
-    meeting->worst_free_run = fmax(meeting->worst_free_run, met.free_run);
-    if (!(met.adc < scene->simulation.threshold)) /* NaN is none */
+    struct contact_frequency frequency = assess_contacts(scene, stand, dbh);
+    meeting->worst_adc = fmax(meeting->worst_adc, frequency.adc);
+    meeting->worst_free_run = fmax(meeting->worst_free_run, frequency.free_run);
+    if (!(frequency.adc < scene->simulation.threshold)) /* true for NaN */
         meeting->contact = CEDUO_FAIL;
 }
 
-static void judge_meeting(const struct ceduo_scene *scene, bool forest, double longest_gap, struct ceduo_contact_check *meeting)
+static void finish_check(const struct ceduo_scene *scene, bool forest, double longest_gap, struct ceduo_contact_check *meeting)
 {
     if (!forest)
         *meeting = (struct ceduo_contact_check){.worst_adc = INFINITY, .worst_free_run = 1};
@@ -99,11 +102,11 @@ struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, co
     const struct ceduo_stand *stand = &belt->stand;
     double length = belt->to - belt->from;
     double b = ceduo_rock_mean(&scene->rock).mean_diameter;
-    const struct ceduo_stand counted = from_dbh(stand, scene->simulation.contact_dbh);
+    const struct ceduo_stand counted = count_from_dbh(stand, scene->simulation.contact_dbh);
     enum ceduo_rule rule = ceduo_adc_rule(&counted, b, scene->simulation.rule);
     struct ceduo_adc adc = ceduo_adc(&counted, b);
     double adc_m = ceduo_adc_value(&adc, rule);
-    struct met met = meet(scene, stand, scene->simulation.contact_dbh);
+    struct contact_frequency frequency = assess_contacts(scene, stand, scene->simulation.contact_dbh);
     double trees = ceduo_stand_trees(stand);
     struct ceduo_stand_result r = {.length = length,
                                    .stems_per_ha = ceduo_stand_shoots(stand) + trees,
@@ -115,8 +118,8 @@ struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, co
                                    .rule = rule,
                                    .adc = adc,
                                    .adc_m = adc_m};
-    r.passes_threshold = met.adc < scene->simulation.threshold;
-    r.free_run_probability = met.free_run;
+    r.passes_threshold = frequency.adc < scene->simulation.threshold;
+    r.free_run_probability = frequency.free_run;
     r.contacts = length / r.adc_m;
     r.dissipated = isinf(adc_m) ? 0 : length * ceduo_energy_per_metre(&counted, b, rule);
     r.per_100m = r.dissipated / length * 100;
@@ -140,7 +143,7 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *a)
     return a->exceed.mean + unfinished <= a->limit ? CEDUO_PASS : CEDUO_UNKNOWN;
 }
 
-/* ---- what can be said ---- */
+/* ---- judgement ---- */
 
 #define DEGREES (180 / M_PI)
 
@@ -152,7 +155,7 @@ enum ceduo_terrain ceduo_terrain(const struct ceduo_arrivals *bare)
     if (bare->released > 0 && steep && may_arrive < CEDUO_ARRIVE_FEW * all)
         return t->bench >= CEDUO_BENCH_LENGTH ? CEDUO_TERRAIN_BENCH : CEDUO_TERRAIN_CONTRADICTS;
     bool many = (double)bare->reached > CEDUO_ARRIVE_MANY * all;
-    bool beyond = t->reach < M_PI_4; /* not right below the face */
+    bool beyond = t->reach < M_PI_4; /* not directly below the face */
     return many && beyond && t->shadow * DEGREES < CEDUO_SHADOW_FLAT ? CEDUO_TERRAIN_FAR : CEDUO_TERRAIN_AGREES;
 }
 
@@ -190,35 +193,35 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
                                       const struct ceduo_control *control, double bare_mean)
 {
     const struct ceduo_rock rock = ceduo_rock_mean(&scene->rock);
-    double start = scene->release.x.mean, at = start, min = scene->simulation.contact_dbh;
+    double start = scene->release.x.mean, stems_end = start, min = scene->simulation.contact_dbh;
     struct ceduo_index index = {.meet_nothing_probability = 1, .thick = {.contact = CEDUO_PASS}};
     struct ceduo_contact_check all = {.contact = CEDUO_PASS};
     bool forest = false;
     for (size_t i = 0; i < option->belts_count; i++) {
-        struct ceduo_belt within = option->belts[i];
+        struct ceduo_belt belt_part = option->belts[i];
         const struct ceduo_stand *stand = &option->belts[i].stand;
-        double a = within.from = fmax(within.from, start), b = within.to = fmin(within.to, control->x);
+        double a = belt_part.from = fmax(belt_part.from, start), b = belt_part.to = fmin(belt_part.to, control->x);
         if (!(b > a))
             continue;
-        struct ceduo_stand_result r = ceduo_assess_stand(scene, &within);
+        struct ceduo_stand_result r = ceduo_assess_stand(scene, &belt_part);
         forest = true;
         index.length += r.bare ? 0 : b - a;
         index.contacts += r.contacts;
         index.dissipated += r.dissipated;
-        /* the chance that the belt, of those whose centres lie there, has no stem that counts in the rock's way */
-        const struct ceduo_stand counted = standing(stand, min);
-        index.meet_nothing_probability *= chance_of_none((b - a) / ceduo_adc(&counted, rock.mean_diameter).crofton,
-                                                         less_by_groups(&counted, rock.mean_diameter, b - a, false));
-        add_meeting(scene, stand, min, &all);
-        add_meeting(scene, stand, fmax(min, CEDUO_THICK_DBH), &index.thick);
+        /* probability that the belt, counting groups with centres inside, has no counted stem in the rock's path */
+        const struct ceduo_stand counted = count_standing_from(stand, min);
+        index.meet_nothing_probability *= no_contact_probability((b - a) / ceduo_adc(&counted, rock.mean_diameter).crofton,
+                                                                 group_correction(&counted, rock.mean_diameter, b - a, false));
+        add_belt_check(scene, stand, min, &all);
+        add_belt_check(scene, stand, fmax(min, CEDUO_THICK_DBH), &index.thick);
         if (!ceduo_stand_has_stems(stand))
             continue;
-        index.longest_gap = fmax(index.longest_gap, a - at);
-        at = b;
+        index.longest_gap = fmax(index.longest_gap, a - stems_end);
+        stems_end = b;
     }
-    index.longest_gap = fmax(index.longest_gap, control->x - at);
-    judge_meeting(scene, forest, index.longest_gap, &all);
-    judge_meeting(scene, forest, index.longest_gap, &index.thick);
+    index.longest_gap = fmax(index.longest_gap, control->x - stems_end);
+    finish_check(scene, forest, index.longest_gap, &all);
+    finish_check(scene, forest, index.longest_gap, &index.thick);
     index.per_100m = index.length > 0 ? index.dissipated / index.length * 100 : 0;
     index.worst_adc = all.worst_adc;
     index.worst_free_run = all.worst_free_run;

@@ -8,7 +8,7 @@
 #include "ceduo/variants.h"
 #include "check.h"
 
-static struct ceduo_number scaled(struct ceduo_number n, double factor)
+static struct ceduo_number scale_number(struct ceduo_number n, double factor)
 {
     n.mean *= factor;
     n.spread *= factor;
@@ -19,28 +19,28 @@ struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double
 {
     struct ceduo_rock_def to = *def;
     double cube = factor * factor * factor;
-    to.diameter = scaled(def->diameter, factor);
-    to.height = scaled(def->height, factor);
+    to.diameter = scale_number(def->diameter, factor);
+    to.height = scale_number(def->height, factor);
     for (int i = 0; i < 3; i++)
-        to.axes[i] = scaled(def->axes[i], factor);
-    to.volume = scaled(def->volume, cube);
-    to.mass = scaled(def->mass, cube);
+        to.axes[i] = scale_number(def->axes[i], factor);
+    to.volume = scale_number(def->volume, cube);
+    to.mass = scale_number(def->mass, cube);
     return to;
 }
 
-#define EFFORT_MAX 5e6 /* of any size: a page is not waited for */
+#define EFFORT_MAX 5e6 /* per size; keeps report pages fast */
 
-/* Below so many rocks a size is left out: their share would say nothing. */
-#define FEWEST 10
+/* Minimum number of rocks; with fewer a size is skipped, because their share is meaningless. */
+#define ROCKS_MIN 10
 
-/* Of a size whose rocks meet so many times the stems of the scene's own not even the first is simulated. */
-#define TIMES_MAX 100
+/* A size is skipped if its rocks meet more than this times the stems of the scene's own rock. */
+#define STEMS_RATIO_MAX 100
 
 /* Sizes as variants of a scene. */
 struct sizes_run {
     const struct ceduo_blocks_def *def;
     struct ceduo_size_result *blocks;
-    struct ceduo_scene scene; /* with the size at hand */
+    struct ceduo_scene scene; /* with the current size */
     double volume, contacts;  /* of the scene's own rock */
 };
 
@@ -63,10 +63,10 @@ static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant
     b->adc = index.worst_adc;
     b->contacts = index.contacts;
     bool simulates = def->scene->simulation.contact_model != CEDUO_INDEX;
-    bool known = b->own && def->own && def->own->released >= def->rocks && def->scene->blocks_count == 0;
-    if (simulates && known)
+    bool reuses_run = b->own && def->own && def->own->released >= def->rocks && def->scene->blocks_count == 0;
+    if (simulates && reuses_run)
         b->arrivals = *def->own;
-    variant->skip = !simulates || known || index.contacts > TIMES_MAX * r->contacts;
+    variant->skip = !simulates || reuses_run || index.contacts > STEMS_RATIO_MAX * r->contacts;
     variant->rocks = 1;
     variant->run = ceduo_run_def_default(&r->scene);
     variant->run.option = def->option;
@@ -77,16 +77,17 @@ static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant
     return CEDUO_OK;
 }
 
-/* One rock, then four times as many each time: the first may stop where the others go on. What cannot be paid is left out. */
+/* Simulate one rock, then four times as many each time, because the first may be untypical. A size over the work limit is
+ * skipped. */
 static enum ceduo_status read_size(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
 {
     struct sizes_run *r = context;
     const struct ceduo_blocks_def *def = r->def;
     double effort = (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn, max = fmin(def->effort, EFFORT_MAX);
-    double n = effort > 0 ? max / effort * (double)ceduo_run_rocks(run) : INFINITY; /* by what those so far cost */
+    double n = effort > 0 ? max / effort * (double)ceduo_run_rocks(run) : INFINITY; /* by the work per rock so far */
     uint64_t affordable = (double)def->rocks < n ? def->rocks : (uint64_t)n;
     *rocks = 4 * *rocks < affordable ? 4 * *rocks : affordable;
-    if (*rocks > ceduo_run_rocks(run) || ceduo_run_rocks(run) < (def->rocks < FEWEST ? def->rocks : FEWEST))
+    if (*rocks > ceduo_run_rocks(run) || ceduo_run_rocks(run) < (def->rocks < ROCKS_MIN ? def->rocks : ROCKS_MIN))
         return CEDUO_OK;
     return ceduo_run_arrivals(run, def->control, &r->blocks[i].arrivals);
 }
@@ -105,7 +106,7 @@ enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_
 {
     static const double volumes[CEDUO_SIZES - 1] = {0.05, 0.2, 1, 5};
     struct ceduo_rock mean;
-    size_t own = 0; /* its place among them, which rise */
+    size_t own = 0; /* index among the sorted volumes */
     enum ceduo_status status = ceduo_check_blocks_def(def);
     if (status == CEDUO_OK)
         status = ceduo_rock_of_means(&def->scene->rock, &mean);

@@ -5,8 +5,8 @@
 #include "ceduo/blocks.h"
 #include "ceduo/question.h"
 
-/* Check what a caller fills before any of it is used: pointers, counts, indices, windows. Each returns CEDUO_OK,
- * CEDUO_BAD_ARGUMENT, or the status of a bad scene. Requires arrays as long as their counts: no check can see that. */
+/* Check the input of a caller before use: pointers, counts, indices, windows. Each returns CEDUO_OK, CEDUO_BAD_ARGUMENT, or the
+ * status of a bad scene. Requires arrays as long as their counts, which cannot be checked. */
 
 enum ceduo_status ceduo_check_window(struct ceduo_window window);
 enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def);

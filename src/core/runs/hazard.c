@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rates are read from the energies of the rocks that arrive, the largest first, with the sums of their weights up to each:
- * so every rate of exceeding an energy is known at once, and the energy of a return period is where the curve, or an end of
- * its interval, first reaches that rate. */
+/* Rates follow from the energies of the arriving rocks, sorted, with cumulative sums of weights from the largest on. The energy
+ * of a return period is the first at which the curve, or a limit of its interval, reaches the rate. */
 #include "ceduo/hazard.h"
 
 #include <math.h>
@@ -50,50 +49,50 @@ struct ceduo_estimate ceduo_hazard_feared(const struct ceduo_hazard *h)
     return isnan(h->accepted.mean) ? h->reach : h->accepted;
 }
 
-static double left_of(struct ceduo_estimate rate, struct ceduo_estimate bare)
+static double rate_ratio(struct ceduo_estimate rate, struct ceduo_estimate bare)
 {
     return bare.mean > 0 ? rate.mean / bare.mean : NAN;
 }
 
 void ceduo_hazard_compare(struct ceduo_hazard *h, const struct ceduo_hazard *bare)
 {
-    h->left = left_of(ceduo_hazard_feared(h), ceduo_hazard_feared(bare));
+    h->left = rate_ratio(ceduo_hazard_feared(h), ceduo_hazard_feared(bare));
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
-        h->intensity[i].left = left_of(h->intensity[i].within, bare->intensity[i].within);
+        h->intensity[i].left = rate_ratio(h->intensity[i].within, bare->intensity[i].within);
 }
 
 /* ---- the curve ---- */
 
 struct curve {
-    const struct released *all;
-    const struct weighted *energies; /* rising */
-    const struct weighted_sum *sums; /* [k]: of the k largest */
+    const struct weight_totals *totals;
+    const struct weighted *energies; /* increasing */
+    const struct weighted_sum *sums; /* [k]: over the k largest */
     size_t n;
 };
 
-/* Rocks above an energy. */
-static size_t above(const struct curve *c, double energy)
+/* Return the number of rocks above an energy. */
+static size_t count_above(const struct curve *c, double energy)
 {
     return c->n - ceduo_weighted_upto(c->energies, c->n, energy);
 }
 
-/* Of rocks above an energy. */
-static struct ceduo_estimate rate_of(const struct curve *c, const struct weighted_sum *ones, double energy)
+/* Return the rate of `ones`, rocks above an energy. */
+static struct ceduo_estimate make_rate(const struct curve *c, const struct weighted_sum *ones, double energy)
 {
-    struct ceduo_estimate p = ceduo_weighted_share(c->all, ones, energy);
-    return (struct ceduo_estimate){p.mean * c->all->per_year, NAN, p.lo * c->all->per_year, p.hi * c->all->per_year};
+    struct ceduo_estimate p = ceduo_weighted_share(c->totals, ones, energy);
+    return (struct ceduo_estimate){p.mean * c->totals->per_year, NAN, p.lo * c->totals->per_year, p.hi * c->totals->per_year};
 }
 
-static struct ceduo_estimate exceeding(const struct curve *c, double energy)
+static struct ceduo_estimate make_exceedance(const struct curve *c, double energy)
 {
-    return rate_of(c, &c->sums[above(c, energy)], energy);
+    return make_rate(c, &c->sums[count_above(c, energy)], energy);
 }
 
 static void set_curve(const struct curve *c, struct ceduo_hazard_curve *to)
 {
     for (size_t i = 0; i < CEDUO_HAZARD_ENERGIES; i++) {
         double energy = ceduo_hazard_energy(i);
-        to->at[i] = (struct ceduo_exceeding){energy, exceeding(c, energy)};
+        to->at[i] = (struct ceduo_exceeding){energy, make_exceedance(c, energy)};
         to->count = i + 1;
         if (!(to->at[i].rate.mean > 0))
             break;
@@ -102,34 +101,34 @@ static void set_curve(const struct curve *c, struct ceduo_hazard_curve *to)
 
 static void read_curve(const struct curve *c, double accepted, struct ceduo_hazard *h)
 {
-    h->reach = rate_of(c, &c->sums[c->n], -1);
+    h->reach = make_rate(c, &c->sums[c->n], -1);
     if (!isnan(accepted))
-        h->accepted = exceeding(c, accepted);
+        h->accepted = make_exceedance(c, accepted);
     for (size_t i = 0; i < CEDUO_RETURNS; i++) {
         struct ceduo_estimate *to = &h->returns[i].energy;
-        double wanted = 1.0 / h->returns[i].years;
-        bool bounded = c->n > 0 && exceeding(c, c->energies[c->n - 1].value).hi < wanted;
+        double target = 1.0 / h->returns[i].years;
+        bool bounded = c->n > 0 && make_exceedance(c, c->energies[c->n - 1].value).hi < target;
         for (size_t k = 1; k <= c->n && isnan(to->lo);
-             k++) { /* from the largest rock down, where each first reaches the rate */
+             k++) { /* from the largest rock down, until each limit reaches the rate */
             double energy = c->energies[c->n - k].value;
-            struct ceduo_estimate rate = rate_of(c, &c->sums[k], nextafter(energy, 0));
-            to->mean = rate.mean >= wanted && isnan(to->mean) ? energy : to->mean;
-            to->lo = rate.lo >= wanted ? energy : to->lo;
-            to->hi = bounded && rate.hi >= wanted && isnan(to->hi) ? energy : to->hi;
+            struct ceduo_estimate rate = make_rate(c, &c->sums[k], nextafter(energy, 0));
+            to->mean = rate.mean >= target && isnan(to->mean) ? energy : to->mean;
+            to->lo = rate.lo >= target ? energy : to->lo;
+            to->hi = bounded && rate.hi >= target && isnan(to->hi) ? energy : to->hi;
         }
     }
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++) {
-        double from = ceduo_intensity_from[i], to = ceduo_intensity_from[i + 1]; /* from one to below the other */
-        const struct weighted_sum *a = &c->sums[from > 0 ? above(c, nextafter(from, 0)) : c->n];
-        const struct weighted_sum *b = &c->sums[above(c, nextafter(to, 0))];
-        h->intensity[i].within = rate_of(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw}, from);
+        double from = ceduo_intensity_from[i], to = ceduo_intensity_from[i + 1]; /* from <= energy < to */
+        const struct weighted_sum *a = &c->sums[from > 0 ? count_above(c, nextafter(from, 0)) : c->n];
+        const struct weighted_sum *b = &c->sums[count_above(c, nextafter(to, 0))];
+        h->intensity[i].within = make_rate(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw}, from);
         for (size_t r = 0; r < CEDUO_RETURNS; r++)
             h->intensity[i].of_return[r] = ceduo_intensity_find(h->returns[r].energy.mean) == (int)i;
     }
 }
 
-bool ceduo_hazard_read(const struct released *all, struct weighted *energies, size_t n, double accepted, struct ceduo_hazard *h,
-                       struct ceduo_hazard_curve *to)
+bool ceduo_hazard_read(const struct weight_totals *totals, struct weighted *energies, size_t n, double accepted,
+                       struct ceduo_hazard *h, struct ceduo_hazard_curve *to)
 {
     struct weighted_sum *sums = malloc((n + 1) * sizeof *sums);
     *h = ceduo_hazard_none();
@@ -141,9 +140,9 @@ bool ceduo_hazard_read(const struct released *all, struct weighted *energies, si
         sums[k + 1] = sums[k];
         weighted_sum_add(&sums[k + 1], energies[n - 1 - k].weight, 1);
     }
-    h->per_year = all->per_year;
-    h->effective = all->w * all->w / all->ww;
-    const struct curve curve = {all, energies, sums, n};
+    h->per_year = totals->per_year;
+    h->effective = totals->w * totals->w / totals->ww;
+    const struct curve curve = {totals, energies, sums, n};
     read_curve(&curve, accepted, h);
     if (to)
         set_curve(&curve, to);

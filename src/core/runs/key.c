@@ -5,20 +5,20 @@
 #include "core/wood/wood.h"
 #include "scene/schema.h"
 
-/* Ground, rock, release and controls are hashed as the table of the scene has them: walkers read those members, and a new
- * row is in the key unless it says that it decides about something else. A forest is hashed as it is made ready. */
+/* Ground, rock, release and controls are hashed by the table of keys, so that a new row is in the key unless a flag excludes
+ * it. A forest is hashed in its prepared form. */
 
-#define OF_OTHERS (FIELD_NOWHERE | FIELD_DRAFT | FIELD_WOOD | FIELD_NO_RUN)
+#define NOT_HASHED (FIELD_NOWHERE | FIELD_DRAFT | FIELD_WOOD | FIELD_NO_RUN)
 
-/* The members of `object` that decide about the years to come, or those that decide about trajectories now. */
+/* Hash the members of `object` that affect future years, or those that affect trajectories now. */
 static void hash_fields(uint64_t *key, const struct object *object, const char *item, bool years)
 {
     for (const struct field *f = object->fields; f < object->fields + object->n; f++) {
-        bool whole = f->type == FIELD_GROUP || f->type == FIELD_LIST;
-        if (f->flags & OF_OTHERS || (!whole && !(f->flags & FIELD_YEARS) == years))
+        bool nested = f->type == FIELD_GROUP || f->type == FIELD_LIST;
+        if (f->flags & NOT_HASHED || (!nested && !(f->flags & FIELD_YEARS) == years))
             continue;
-        const char *at = item + (f->flags & FIELD_PLACE && f->type == FIELD_NUMBER ? f->beside : f->offset);
-        const struct ceduo_number *numbers = (const void *)at;
+        const char *member = item + (f->flags & FIELD_PLACE && f->type == FIELD_NUMBER ? f->beside : f->offset);
+        const struct ceduo_number *numbers = (const void *)member;
         uint64_t word = 0;
         size_t n;
         char *items;
@@ -26,10 +26,10 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
         memcpy(&n, item + f->beside, sizeof n);
         switch (f->type) {
         case FIELD_GROUP:
-            hash_fields(key, f->object, at, years);
+            hash_fields(key, f->object, member, years);
             break;
         case FIELD_LIST:
-            memcpy(&items, at, sizeof items);
+            memcpy(&items, member, sizeof items);
             hash_count(key, n);
             for (size_t i = 0; i < n; i++)
                 hash_fields(key, f->object, items + i * f->object->size, years);
@@ -38,12 +38,12 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
         case FIELD_POINTS:
             hash_count(key, n);
             for (size_t k = 0; k < f->size; k += sizeof doubles) {
-                memcpy(&doubles, at + k, sizeof doubles);
+                memcpy(&doubles, member + k, sizeof doubles);
                 hash_doubles(key, doubles, n);
             }
             break;
         case FIELD_NUMBER:
-            memcpy(&number, at, sizeof number);
+            memcpy(&number, member, sizeof number);
             hash_double(key, number);
             break;
         case FIELD_SPREAD:
@@ -57,10 +57,10 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
         case FIELD_COUNT:
         case FIELD_CHOICE:
         case FIELD_FLAG:
-            memcpy(&word, at, f->size);
+            memcpy(&word, member, f->size);
             hash_count(key, word);
             break;
-        case FIELD_TAG: /* pointers: fields.h lets no such row come here */
+        case FIELD_TAG: /* pointers: fields.h excludes such rows */
         case FIELD_TEXT:
         case FIELD_FILE:
         case FIELD_WORDS:
@@ -69,12 +69,12 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
     }
 }
 
-uint64_t ceduo_scene_key(const struct ceduo_scene *given)
+uint64_t ceduo_scene_key(const struct ceduo_scene *original)
 {
     uint64_t key = HASH_START;
-    struct ceduo_scene scene = *given; /* with the profile that is simulated; without memory for it the key is another one */
+    struct ceduo_scene scene = *original; /* with the simulated profile; without memory the key differs */
     struct ceduo_slope simplified;
-    if (ceduo_slope_simplify(&given->slope, given->release.x.mean, &simplified) == CEDUO_OK && simplified.x)
+    if (ceduo_slope_simplify(&original->slope, original->release.x.mean, &simplified) == CEDUO_OK && simplified.x)
         scene.slope = simplified;
     hash_fields(&key, ceduo_schema_scene(), (const char *)&scene, false);
     for (size_t i = 0; i + 1 < scene.slope.vertices; i++)

@@ -22,7 +22,7 @@ bool ceduo_alternative_scene(const struct ceduo_scene *scene, struct ceduo_scene
     other->options = calloc(1, (n + 1) * sizeof *other->options + belts * sizeof(struct ceduo_belt));
     if (!other->options)
         return false;
-    struct ceduo_belt *to = (void *)(other->options + n + 1); /* behind the options */
+    struct ceduo_belt *to = (void *)(other->options + n + 1); /* after the options */
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_option *option = &scene->options[i];
         other->options[i] = *option;

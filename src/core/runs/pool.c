@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One run for each different forest of a scene. Runs are found by the key of their forest (key.c); the pool owns them, and
- * drops those that its scene no longer needs, the one asked for longest ago first. */
+/* One run per different forest of a scene, found by the key of the forest (key.c). The pool owns the runs, and frees those that
+ * its scene no longer needs, least recently used first. */
 #include "ceduo/pool.h"
 
 #include <stdlib.h>
@@ -12,9 +12,9 @@
 
 struct pooled {
     uint64_t key;
-    uint64_t asked; /* when it was asked for last */
-    bool beside;    /* of the other energy law alone: it goes with the scene, and no tolerance waits for it */
-    bool needed;    /* by the scene, as drop_spare() found */
+    uint64_t last_used; /* time of last use */
+    bool is_alt_law;    /* only for the other energy law: always needed, and ignored by tolerances */
+    bool needed;        /* by the scene; set by free_spare() */
     struct ceduo_run *run;
 };
 
@@ -23,10 +23,10 @@ struct ceduo_pool {
     struct ceduo_scene scene;
     uint64_t scene_key;
     bool filled;
-    size_t count, room;
+    size_t count, capacity;
     struct pooled *runs;
-    uint64_t reused, asked;
-    struct ceduo_work dropped; /* what the runs did that are freed */
+    uint64_t reused, last_used;
+    struct ceduo_work freed; /* work of freed runs */
 };
 
 enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct ceduo_pool **out)
@@ -66,22 +66,22 @@ enum ceduo_status ceduo_pool_reuse_or_create(const struct ceduo_run_def *def, st
     return ceduo_pool_create(def, pool);
 }
 
-/* `def` without its option. */
+/* Add a run; the option of `def` is ignored. */
 static enum ceduo_status add_run(struct ceduo_pool *pool, struct ceduo_run_def def, const struct ceduo_option *option,
                                  uint64_t key, struct ceduo_run **run)
 {
-    struct pooled *runs = ceduo_grow(pool->runs, pool->count, &pool->room, sizeof *runs);
+    struct pooled *runs = ceduo_grow(pool->runs, pool->count, &pool->capacity, sizeof *runs);
     if (!runs)
         return CEDUO_NO_MEMORY;
     pool->runs = runs;
     def.option = key != 0 ? option : NULL;
     enum ceduo_status status = ceduo_run_create(&def, run);
     if (status == CEDUO_OK)
-        pool->runs[pool->count++] = (struct pooled){.key = key, .asked = ++pool->asked, .run = *run};
+        pool->runs[pool->count++] = (struct pooled){.key = key, .last_used = ++pool->last_used, .run = *run};
     return status;
 }
 
-static struct pooled *find(const struct ceduo_pool *pool, uint64_t key)
+static struct pooled *find_run(const struct ceduo_pool *pool, uint64_t key)
 {
     for (size_t i = 0; i < pool->count; i++)
         if (pool->runs[i].key == key)
@@ -91,17 +91,17 @@ static struct pooled *find(const struct ceduo_pool *pool, uint64_t key)
 
 struct ceduo_run *ceduo_pool_find(const struct ceduo_pool *pool, const struct ceduo_option *option)
 {
-    const struct pooled *p = find(pool, ceduo_option_key(&pool->scene, option));
+    const struct pooled *p = find_run(pool, ceduo_option_key(&pool->scene, option));
     return p ? p->run : NULL;
 }
 
 enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_option *option, struct ceduo_run **run)
 {
     uint64_t key = ceduo_option_key(&pool->scene, option);
-    struct pooled *p = find(pool, key);
+    struct pooled *p = find_run(pool, key);
     if (!p)
         return add_run(pool, pool->def, option, key, run);
-    p->asked = ++pool->asked;
+    p->last_used = ++pool->last_used;
     pool->reused++;
     *run = p->run;
     return CEDUO_OK;
@@ -124,31 +124,31 @@ static void add_work(struct ceduo_work *work, const struct ceduo_run *run)
     work->stems.met += stems.met;
 }
 
-/* Frees runs that the scene does not need, the one asked for longest ago first, while there are more than `most` of them and
- * the samples of all have `bytes_most` or more. */
-static void drop_spare(struct ceduo_pool *pool, size_t most, size_t bytes_most)
+/* Free runs that the scene does not need, least recently used first, while there are more than `spare_max` of them and all
+ * samples have at least `bytes_max` bytes. */
+static void free_spare(struct ceduo_pool *pool, size_t spare_max, size_t bytes_max)
 {
     size_t spare = pool->count, bytes = 0;
     for (size_t i = 0; i < pool->count; i++) {
         struct pooled *p = &pool->runs[i];
-        p->needed = p->beside || p->key == 0;
+        p->needed = p->is_alt_law || p->key == 0;
         bytes += ceduo_run_sample_bytes(p->run);
     }
     for (size_t i = 0; i < pool->scene.options_count; i++) {
-        struct pooled *p = find(pool, ceduo_option_key(&pool->scene, &pool->scene.options[i]));
+        struct pooled *p = find_run(pool, ceduo_option_key(&pool->scene, &pool->scene.options[i]));
         if (p)
             p->needed = true;
     }
     for (size_t i = 0; i < pool->count; i++)
         spare -= pool->runs[i].needed;
-    for (; spare > most && bytes >= bytes_most; spare--) {
+    for (; spare > spare_max && bytes >= bytes_max; spare--) {
         struct pooled *oldest = pool->runs;
         for (struct pooled *p = pool->runs; p < pool->runs + pool->count; p++)
-            if (!p->needed && (oldest->needed || p->asked < oldest->asked))
+            if (!p->needed && (oldest->needed || p->last_used < oldest->last_used))
                 oldest = p;
         bytes -= ceduo_run_sample_bytes(oldest->run);
-        add_work(&pool->dropped, oldest->run);
-        pool->dropped.runs++;
+        add_work(&pool->freed, oldest->run);
+        pool->freed.runs++;
         ceduo_run_free(oldest->run);
         *oldest = pool->runs[--pool->count];
     }
@@ -159,12 +159,12 @@ void ceduo_pool_set_scene(struct ceduo_pool *pool, const struct ceduo_scene *sce
     pool->scene = *scene;
     for (size_t i = 0; i < scene->options_count && scene->simulation.contact_model != CEDUO_INDEX; i++)
         pool->filled &= ceduo_pool_find(pool, &scene->options[i]) != NULL;
-    drop_spare(pool, CEDUO_POOL_SPARE, 0);
+    free_spare(pool, CEDUO_POOL_SPARE, 0);
 }
 
 void ceduo_pool_trim(struct ceduo_pool *pool)
 {
-    drop_spare(pool, 0, CEDUO_POOL_BYTES + 1);
+    free_spare(pool, 0, CEDUO_POOL_BYTES + 1);
 }
 
 enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
@@ -178,22 +178,22 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
         if (status == CEDUO_OK && wooded)
             status = ceduo_pool_run(pool, &pool->scene.options[i], &run);
     }
-    /* of the other law arrivals are asked for alone */
+    /* under the other law only arrivals are needed */
     struct ceduo_run_def def = pool->def;
     def.arrivals_only = true;
     def.rocks_most = def.rocks_most > CEDUO_OTHER_ROCKS ? CEDUO_OTHER_ROCKS : def.rocks_most;
-    struct ceduo_scene other = {0};
+    struct ceduo_scene alt_scene = {0};
     if (status == CEDUO_OK && !pool->filled && wooded && def.other_energy)
-        status = ceduo_alternative_scene(&pool->scene, &other) ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t i = 0; status == CEDUO_OK && i < other.options_count; i++) {
-        uint64_t key = ceduo_option_key(&pool->scene, &other.options[i]);
-        if (key == 0 || find(pool, key))
+        status = ceduo_alternative_scene(&pool->scene, &alt_scene) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; status == CEDUO_OK && i < alt_scene.options_count; i++) {
+        uint64_t key = ceduo_option_key(&pool->scene, &alt_scene.options[i]);
+        if (key == 0 || find_run(pool, key))
             continue;
-        status = add_run(pool, def, &other.options[i], key, &run);
+        status = add_run(pool, def, &alt_scene.options[i], key, &run);
         if (status == CEDUO_OK)
-            pool->runs[pool->count - 1].beside = true;
+            pool->runs[pool->count - 1].is_alt_law = true;
     }
-    ceduo_alternative_scene_release(&other);
+    ceduo_alternative_scene_release(&alt_scene);
     pool->filled = status == CEDUO_OK;
     return status;
 }
@@ -211,7 +211,7 @@ bool ceduo_mean_is_precise(uint64_t reached, struct ceduo_estimate mean, double 
     return reached < CEDUO_ARRIVALS_MIN || CEDUO_Z95 * mean.se <= tolerance * mean.mean;
 }
 
-/* The counts are fixed, and near to each other: few rocks are simulated in vain. */
+/* The numbers of rocks are fixed and close to each other, so that few rocks are wasted. */
 enum ceduo_status ceduo_pool_run_to_tolerance(struct ceduo_pool *pool, double tolerance, uint64_t max, bool *met)
 {
     *met = false;
@@ -221,7 +221,7 @@ enum ceduo_status ceduo_pool_run_to_tolerance(struct ceduo_pool *pool, double to
             return status;
         *met = true;
         for (size_t i = 0; i < pool->count; i++)
-            for (size_t c = 0; c < pool->scene.controls_count && *met && !pool->runs[i].beside; c++) {
+            for (size_t c = 0; c < pool->scene.controls_count && *met && !pool->runs[i].is_alt_law; c++) {
                 uint64_t reached;
                 struct ceduo_estimate mean = ceduo_run_energy(pool->runs[i].run, c, &reached);
                 *met = ceduo_mean_is_precise(reached, mean, tolerance);
@@ -234,7 +234,7 @@ enum ceduo_status ceduo_pool_run_to_tolerance(struct ceduo_pool *pool, double to
 
 struct ceduo_work ceduo_pool_work(const struct ceduo_pool *pool)
 {
-    struct ceduo_work work = pool->dropped;
+    struct ceduo_work work = pool->freed;
     work.runs += pool->count;
     work.reused = pool->reused;
     for (size_t i = 0; i < pool->count; i++)

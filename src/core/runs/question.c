@@ -13,7 +13,7 @@ struct ceduo_request ceduo_request_default(const struct ceduo_scene *scene)
 
 /* ---- simulating ---- */
 
-/* The years of each option asked for; of each its whole rotation if `rotation`. */
+/* Simulate the years of each requested option, or its whole rotation if `rotation`. */
 static enum ceduo_status simulate_years(const struct ceduo_request *q, struct ceduo_pool *pool, bool rotation,
                                         struct ceduo_results *a)
 {
@@ -21,7 +21,7 @@ static enum ceduo_status simulate_years(const struct ceduo_request *q, struct ce
     const struct ceduo_simulated *bare = &a->result->bare;
     uint64_t rocks = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
     rocks = q->year_rocks > 0 && q->year_rocks < rocks ? q->year_rocks : rocks;
-    bool apart = q->years_apart && rocks > 0 && scene->blocks_count == 0 && scene->simulation.contact_model != CEDUO_INDEX;
+    bool separate = q->years_apart && rocks > 0 && scene->blocks_count == 0 && scene->simulation.contact_model != CEDUO_INDEX;
     struct ceduo_years **years = calloc(scene->options_count + 1, sizeof *years);
     *(rotation ? &a->rotations : &a->years) = years;
     enum ceduo_status status = years ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -34,39 +34,40 @@ static enum ceduo_status simulate_years(const struct ceduo_request *q, struct ce
                                                           : ceduo_window_in(scene);
         window = q->years_most > 0 ? ceduo_window_thinned(window, q->years_most) : window;
         status = ceduo_years_create(scene, option, window, &years[i]);
-        if (status == CEDUO_OK) /* year 0 alone is today: its run is there */
-            status = apart && window.kind != CEDUO_WINDOW_CONSTANT
+        if (status == CEDUO_OK) /* a constant window is year 0, today: its run exists */
+            status = separate && window.kind != CEDUO_WINDOW_CONSTANT
                          ? ceduo_years_simulate_independent(years[i], &q->run, bare, rocks)
                          : ceduo_years_simulate(years[i], pool, bare, rocks);
     }
     return status;
 }
 
-/* What the run of an option cost, in contacts and stems drawn. */
-static double effort_of(const struct ceduo_pool *pool, const struct ceduo_option *option)
+/* Return the work of an option's run, in contacts plus stems drawn. */
+static double get_effort(const struct ceduo_pool *pool, const struct ceduo_option *option)
 {
     const struct ceduo_run *run = ceduo_pool_find(pool, option);
     return run ? (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn : 0;
 }
 
-/* Each size may cost as much as the two runs beside it. So thin a splinter that a smaller one is no rock has no other sizes. */
+/* The work limit of each size is that of the runs without and through the forest. A splinter too thin to be scaled down has no
+ * other sizes. */
 static enum ceduo_status simulate_sizes(const struct ceduo_request *q, const struct ceduo_pool *pool, struct ceduo_results *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
-    uint64_t all = ceduo_result_rocks(a->result), rocks = all < q->block_rocks ? all : q->block_rocks;
+    uint64_t all_rocks = ceduo_result_rocks(a->result), rocks = all_rocks < q->block_rocks ? all_rocks : q->block_rocks;
     a->blocks = calloc(scene->options_count * CEDUO_SIZES + 1, sizeof *a->blocks);
     enum ceduo_status status = a->blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
-        status =
-            ceduo_blocks(&(const struct ceduo_blocks_def){.scene = scene,
-                                                          .option = &scene->options[i],
-                                                          .control = a->result->last_control,
-                                                          .rocks = rocks,
-                                                          .effort = effort_of(pool, NULL) + effort_of(pool, &scene->options[i]),
-                                                          .own = ceduo_result_wooded(a->result, i, a->result->last_control),
-                                                          .threads = q->run.threads,
-                                                          .cancel = q->run.cancel},
-                         &a->blocks[i * CEDUO_SIZES]);
+        status = ceduo_blocks(
+            &(const struct ceduo_blocks_def){.scene = scene,
+                                             .option = &scene->options[i],
+                                             .control = a->result->last_control,
+                                             .rocks = rocks,
+                                             .effort = get_effort(pool, NULL) + get_effort(pool, &scene->options[i]),
+                                             .own = ceduo_result_wooded(a->result, i, a->result->last_control),
+                                             .threads = q->run.threads,
+                                             .cancel = q->run.cancel},
+            &a->blocks[i * CEDUO_SIZES]);
     if (status == CEDUO_OK || status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED)
         return status;
     free(a->blocks);
@@ -74,14 +75,15 @@ static enum ceduo_status simulate_sizes(const struct ceduo_request *q, const str
     return CEDUO_OK;
 }
 
-enum ceduo_status ceduo_simulate_request(const struct ceduo_request *q, struct ceduo_pool **kept, struct ceduo_results *a)
+enum ceduo_status ceduo_simulate_request(const struct ceduo_request *q, struct ceduo_pool **shared_pool,
+                                         struct ceduo_results *a)
 {
     *a = (struct ceduo_results){0};
     enum ceduo_status status = ceduo_check_request(q);
     if (status != CEDUO_OK)
         return status;
     const struct ceduo_scene *scene = q->run.scene;
-    struct ceduo_pool *own = NULL, **pool = kept ? kept : &own;
+    struct ceduo_pool *own_pool = NULL, **pool = shared_pool ? shared_pool : &own_pool;
     struct ceduo_run *run;
     struct ceduo_run_def def = q->run;
     def.rocks_most = def.rocks_most < q->rocks ? q->rocks : def.rocks_most;
@@ -105,7 +107,7 @@ enum ceduo_status ceduo_simulate_request(const struct ceduo_request *q, struct c
     a->work = *pool && !q->years_apart ? ceduo_pool_work(*pool) : today;
     if (status == CEDUO_OK && q->block_rocks > 0 && scene->controls_count > 0)
         status = simulate_sizes(q, *pool, a);
-    ceduo_pool_free(own);
+    ceduo_pool_free(own_pool);
     if (status != CEDUO_OK)
         ceduo_results_release(a);
     return status;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Results: what is read from the runs of a pool, or from what was read before, and every option assessed by it. A result owns
- * all its columns and points to the scene. */
+/* Results, read from the runs of a pool or from earlier results, with the assessment of every option. A result owns all its
+ * arrays and points to the scene. */
 #include "ceduo/result.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what a run found ---- */
+/* ---- results of a run ---- */
 
 static bool allocate_simulated(struct ceduo_simulated *f, size_t controls, bool curves)
 {
@@ -32,7 +32,7 @@ enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t contr
     return status;
 }
 
-static enum ceduo_status copy(const struct ceduo_simulated *from, struct ceduo_simulated *to)
+static enum ceduo_status copy_simulated(const struct ceduo_simulated *from, struct ceduo_simulated *to)
 {
     if (!allocate_simulated(to, from->controls, from->curves))
         return CEDUO_NO_MEMORY;
@@ -67,7 +67,7 @@ void ceduo_simulated_meets_nothing(struct ceduo_simulated *f)
 
 void ceduo_simulated_compare(struct ceduo_simulated *f, const struct ceduo_simulated *bare)
 {
-    for (size_t c = 0; f->arrivals && c < f->controls; c++) /* there may have been no memory for them */
+    for (size_t c = 0; f->arrivals && c < f->controls; c++) /* NULL if memory ran out */
         ceduo_hazard_compare(&f->arrivals[c].hazard, &bare->arrivals[c].hazard);
 }
 
@@ -81,13 +81,13 @@ void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_optio
         controls[c].energy = ceduo_energy_light(wooded->rocks > 0 ? &wooded->arrivals[c] : NULL);
         if (!ceduo_too_few_arrivals(&bare->arrivals[c]))
             continue;
-        /* where rocks do not arrive anyhow a light that passes would be a promise of the forest */
+        /* if rocks do not arrive even without forest, a passing light would wrongly credit the forest */
         controls[c].contact = controls[c].free_run = controls[c].energy = CEDUO_UNKNOWN;
         controls[c].thick.contact = controls[c].thick.free_run = CEDUO_UNKNOWN;
     }
 }
 
-static struct ceduo_result *allocate(const struct ceduo_scene *scene)
+static struct ceduo_result *allocate_result(const struct ceduo_scene *scene)
 {
     struct ceduo_result *r = calloc(1, sizeof *r);
     if (!r)
@@ -113,8 +113,8 @@ static struct ceduo_result *allocate(const struct ceduo_scene *scene)
     return NULL;
 }
 
-/* Assesses every option of a result whose runs are read; otherwise frees it. */
-static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status, struct ceduo_result **result)
+/* Assess every option of a result whose runs were read; free the result if `status` is an error. */
+static enum ceduo_status assess_options(struct ceduo_result *r, enum ceduo_status status, struct ceduo_result **result)
 {
     const struct ceduo_scene *scene = r->scene;
     const struct ceduo_simulated none = {0};
@@ -123,19 +123,20 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
         if (r->wooded)
             ceduo_simulated_meets_nothing(&o->wooded);
         else
-            status = copy(&r->bare, &o->wooded);
+            status = copy_simulated(&r->bare, &o->wooded);
         ceduo_simulated_compare(&o->wooded, &r->bare);
         for (size_t c = 0; c < scene->controls_count; c++) {
-            struct ceduo_alternative_energy *other = &o->others[c];
+            struct ceduo_alternative_energy *alt = &o->others[c];
             if (!r->wooded)
                 o->differences[c] = ceduo_no_difference(scene->controls[c].accepted);
-            if (!r->wooded || !other->known)
+            if (!r->wooded || !alt->known)
                 continue;
-            enum ceduo_judgement one = ceduo_judge_control(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c));
-            const struct ceduo_arrivals *a = &other->arrivals;
-            enum ceduo_judgement two = ceduo_judge_share(a->exceed, a->limit);
-            bool differ = (one == CEDUO_YES && two == CEDUO_NO) || (one == CEDUO_NO && two == CEDUO_YES);
-            other->judgement = one == CEDUO_NOTHING ? one : differ ? CEDUO_DEPENDS : two;
+            enum ceduo_judgement judgement = ceduo_judge_control(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c));
+            const struct ceduo_arrivals *a = &alt->arrivals;
+            enum ceduo_judgement alt_judgement = ceduo_judge_share(a->exceed, a->limit);
+            bool differ =
+                (judgement == CEDUO_YES && alt_judgement == CEDUO_NO) || (judgement == CEDUO_NO && alt_judgement == CEDUO_YES);
+            alt->judgement = judgement == CEDUO_NOTHING ? judgement : differ ? CEDUO_DEPENDS : alt_judgement;
         }
         ceduo_result_read(scene, &scene->options[i], &r->bare, r->wooded ? &o->wooded : &none, o->stands, o->controls);
     }
@@ -151,19 +152,20 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
                                       const struct ceduo_alternative_energy *others, struct ceduo_result **result)
 {
     size_t controls = scene->controls_count;
-    struct ceduo_result *r = allocate(scene);
+    struct ceduo_result *r = allocate_result(scene);
     *result = NULL;
     if (!r)
         return CEDUO_NO_MEMORY;
-    enum ceduo_status status = copy(bare, &r->bare);
+    enum ceduo_status status = copy_simulated(bare, &r->bare);
     for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
-        memcpy(r->options[i].differences, differences + i * controls, controls * sizeof *differences);
+        if (differences)
+            memcpy(r->options[i].differences, differences + i * controls, controls * sizeof *differences);
         if (others)
             memcpy(r->options[i].others, others + i * controls, controls * sizeof *others);
         if (wooded[i])
-            status = copy(wooded[i], &r->options[i].wooded);
+            status = copy_simulated(wooded[i], &r->options[i].wooded);
     }
-    return finish(r, status, result);
+    return assess_options(r, status, result);
 }
 
 enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const struct ceduo_pool *pool,
@@ -171,14 +173,14 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
 {
     size_t controls = scene->controls_count;
     const struct ceduo_run *bare = ceduo_pool_find(pool, NULL), *baseline = ceduo_pool_find(pool, &scene->options[0]);
-    struct ceduo_result *r = allocate(scene);
+    struct ceduo_result *r = allocate_result(scene);
     *result = NULL;
     if (!r)
         return CEDUO_NO_MEMORY;
     enum ceduo_status status = bare ? ceduo_simulated_read(bare, controls, &r->bare) : CEDUO_OK;
     if (!bare && !allocate_simulated(&r->bare, controls, false))
         status = CEDUO_NO_MEMORY;
-    for (size_t c = 0; !bare && status == CEDUO_OK && c < controls; c++) { /* of a run that is not there nothing is known */
+    for (size_t c = 0; !bare && status == CEDUO_OK && c < controls; c++) { /* missing run: NaN */
         r->bare.arrivals[c].energy = ceduo_distribution_none();
         r->bare.arrivals[c].hazard = ceduo_hazard_none();
     }
@@ -186,21 +188,21 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
         const struct ceduo_run *run = ceduo_pool_find(pool, &scene->options[i]);
         for (size_t c = 0; c < controls; c++)
             r->options[i].differences[c] = ceduo_run_difference(run, baseline, c);
-        if (run) /* that of an option without stems is the one without forest */
-            status = run == bare ? copy(&r->bare, &r->options[i].wooded)
+        if (run) /* an option without stems has the run without forest */
+            status = run == bare ? copy_simulated(&r->bare, &r->options[i].wooded)
                                  : ceduo_simulated_read(run, controls, &r->options[i].wooded);
     }
-    struct ceduo_scene other = {0}; /* with the other energy law */
-    if (r->wooded && status == CEDUO_OK && !ceduo_alternative_scene(scene, &other))
+    struct ceduo_scene alt = {0}; /* with the other energy law */
+    if (r->wooded && status == CEDUO_OK && !ceduo_alternative_scene(scene, &alt))
         status = CEDUO_NO_MEMORY;
     for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
-        const struct ceduo_run *first = ceduo_pool_find(pool, &other.options[0]);
-        const struct ceduo_run *run = ceduo_pool_find(pool, &other.options[i]);
+        const struct ceduo_run *first = ceduo_pool_find(pool, &alt.options[0]);
+        const struct ceduo_run *run = ceduo_pool_find(pool, &alt.options[i]);
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
             status = ceduo_alternative_read(&scene->options[i], run, first, c, &r->options[i].others[c]);
     }
-    ceduo_alternative_scene_release(&other);
-    return finish(r, status, result);
+    ceduo_alternative_scene_release(&alt);
+    return assess_options(r, status, result);
 }
 
 void ceduo_result_free(struct ceduo_result *result)

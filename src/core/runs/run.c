@@ -8,7 +8,7 @@
 #include "core/wood/kernel.h"
 #include "run_state.h"
 
-#define CHUNK_SECONDS 0.5 /* about so long a chunk takes: somebody waits for a sign of progress */
+#define CHUNK_SECONDS 0.5 /* target duration of a chunk, so that progress is reported regularly */
 
 struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene)
 {
@@ -24,20 +24,20 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
     if (!ceduo_run_samples_reserve(run, rocks))
         return CEDUO_NO_MEMORY;
     while (run->rocks < rocks) {
-        uint64_t block = run->rocks / CEDUO_BATCH_ROCKS, end = (block + run->chunk) * CEDUO_BATCH_ROCKS;
+        uint64_t batch = run->rocks / CEDUO_BATCH_ROCKS, end = (batch + run->chunk) * CEDUO_BATCH_ROCKS;
         double start = ceduo_clock();
         enum ceduo_status status = ceduo_run_simulate_chunk(run, end < rocks ? end : rocks);
         if (status != CEDUO_OK)
             return status;
-        /* The next chunk has as many blocks as take CHUNK_SECONDS by the speed of this one, at most twice as many, and as many for
-         * each thread, so that none waits long for the others at its end. What is found does not depend on it. */
-        size_t blocks = (size_t)(run->rocks / CEDUO_BATCH_ROCKS - block), threads = run->def.threads, max = 2 * run->chunk;
+        /* The next chunk is to take CHUNK_SECONDS at the speed of this one. It has at most twice as many batches, and a
+         * multiple of the number of threads, so that threads do not wait at its end. Results do not depend on it. */
+        size_t batches = (size_t)(run->rocks / CEDUO_BATCH_ROCKS - batch), threads = run->def.threads, max = 2 * run->chunk;
         double seconds = ceduo_clock() - start;
-        double wanted = seconds > 0 ? (double)blocks * CHUNK_SECONDS / seconds : (double)max; /* untaken: system */
-        size_t next = wanted < (double)max ? (size_t)wanted : max;
+        double target = seconds > 0 ? (double)batches * CHUNK_SECONDS / seconds : (double)max; /* untaken: system */
+        size_t next = target < (double)max ? (size_t)target : max;
         next = (next + threads - 1) / threads * threads;
         next = next < threads ? threads : next;
-        run->chunk = next > CHUNK_BLOCKS ? CHUNK_BLOCKS : next;
+        run->chunk = next > CHUNK_BATCHES ? CHUNK_BATCHES : next;
         if (run->def.progress)
             run->def.progress(run->def.context, run->rocks);
     }
@@ -59,23 +59,23 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->def.threads = def->threads > 0 ? def->threads : 1;
     run->controls = def->scene->controls_count;
     run->stems_from = def->option ? ceduo_option_stems_from(def->option) : INFINITY;
-    run->sized = def->scene->blocks_count > 0;
+    run->weighted = def->scene->blocks_count > 0;
     bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_scene_rock_varies(def->scene);
-    run->kept = one_energy ? ENERGY + 1 : QUANTITIES;
-    run->columns = run->controls * (size_t)run->kept + 1;
-    uint64_t blocks = run->def.rocks_most / CEDUO_BATCH_ROCKS + 1;
-    run->slots_count = blocks < CHUNK_BLOCKS ? (size_t)blocks : CHUNK_BLOCKS;
-    run->chunk = run->def.threads < CHUNK_BLOCKS ? run->def.threads : CHUNK_BLOCKS;
-    run->lanes_walk = ceduo_kernel(def->kernel)->walk;
-    run->lanes = run->lanes_walk ? LANES : 1;
+    run->quantities = one_energy ? ENERGY + 1 : QUANTITIES;
+    run->columns = run->controls * (size_t)run->quantities + 1;
+    uint64_t batches = run->def.rocks_most / CEDUO_BATCH_ROCKS + 1;
+    run->slots_count = batches < CHUNK_BATCHES ? (size_t)batches : CHUNK_BATCHES;
+    run->chunk = run->def.threads < CHUNK_BATCHES ? run->def.threads : CHUNK_BATCHES;
+    run->walk_lanes = ceduo_kernel(def->kernel)->walk;
+    run->lanes = run->walk_lanes ? LANES : 1;
     run->slots = calloc(run->slots_count, sizeof *run->slots);
     bool good =
-        run->slots && ceduo_run_block_init(&run->whole, run->controls) && ceduo_run_block_init(&run->tail, run->controls);
+        run->slots && ceduo_run_batch_init(&run->complete, run->controls) && ceduo_run_batch_init(&run->tail, run->controls);
     for (size_t i = 0; good && i < run->slots_count; i++)
-        good = ceduo_run_block_init(&run->slots[i], run->controls);
+        good = ceduo_run_batch_init(&run->slots[i], run->controls);
     good = good && ceduo_prepared_init(&run->prepared, def->scene, def->option) == CEDUO_OK;
-    run->ground_of_lanes = good && run->lanes_walk ? ceduo_lanes_ground_create(&run->prepared.ground) : NULL;
-    if (!good || (run->lanes_walk && !run->ground_of_lanes)) {
+    run->lanes_ground = good && run->walk_lanes ? ceduo_lanes_ground_create(&run->prepared.ground) : NULL;
+    if (!good || (run->walk_lanes && !run->lanes_ground)) {
         ceduo_run_free(run);
         return CEDUO_NO_MEMORY;
     }
@@ -88,13 +88,13 @@ void ceduo_run_free(struct ceduo_run *run)
 {
     if (!run)
         return;
-    free(run->whole.controls);
+    free(run->complete.controls);
     free(run->tail.controls);
     for (size_t i = 0; run->slots && i < run->slots_count; i++)
         free(run->slots[i].controls);
     free(run->slots);
     ceduo_run_samples_free(run);
-    free(run->ground_of_lanes);
+    free(run->lanes_ground);
     ceduo_prepared_release(&run->prepared);
     free(run);
 }
@@ -113,11 +113,11 @@ size_t ceduo_run_sample_bytes(const struct ceduo_run *run)
 
 uint64_t ceduo_run_contacts(const struct ceduo_run *run)
 {
-    return run->whole.contacts + run->tail.contacts;
+    return run->complete.contacts + run->tail.contacts;
 }
 
 struct ceduo_stem_counts ceduo_run_stems(const struct ceduo_run *run)
 {
-    const struct ceduo_stem_counts *a = &run->whole.stems, *b = &run->tail.stems;
+    const struct ceduo_stem_counts *a = &run->complete.stems, *b = &run->tail.stems;
     return (struct ceduo_stem_counts){a->drawn + b->drawn, a->hit + b->hit, a->met + b->met};
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One chunk of a run, on several threads. Workers take blocks of CEDUO_BATCH_ROCKS from a common counter. Each owns its
- * walkers and stems, and writes samples of its rocks into the columns of the run, where no two rocks share a place.
- * A block is summed in the order of its rocks, blocks are merged in their order: the result does not depend on threads. */
+/* One chunk of a run, on several threads. Workers take batches of CEDUO_BATCH_ROCKS from a common counter. Each worker owns its
+ * walkers and stems, and writes the samples of its rocks into the columns of the run, at disjoint places. A batch is summed in
+ * the order of its rocks, and batches are merged in order, so that the result does not depend on threads. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,31 +10,31 @@
 #include "core/walk/walk.h"
 #include "run_state.h"
 
-/* What a rock brings to a control; all 0 where it does not arrive. */
+/* Arrival of a rock at a control; all 0 if it does not arrive. */
 struct arrival {
-    double of[QUANTITIES], stems_hit;
-    bool arrives, exceeds; /* exceeds: with more than is accepted */
+    double values[QUANTITIES], stems_hit;
+    bool arrives, exceeds; /* exceeds: above the accepted energy */
 };
 
-/* One thread's work on a chunk. The rocks of a block may end in any order: what they bring is kept, and summed when all
- * have ended. */
+/* Work of one thread on a chunk. The rocks of a batch may end in any order: their arrivals are stored, and summed when all have
+ * ended. */
 struct worker {
     struct ceduo_run *run;
-    struct walker *walkers; /* one for each lane */
+    struct walker *walkers; /* one per lane */
     struct stems *stems;    /* likewise; NULL: no forest */
-    struct walker first;    /* a rock at its release: where all are alike, they are as this one */
-    struct block *block;
-    uint64_t from, next, to;               /* rocks of the block: the first, the next to begin, behind the last */
+    struct walker first;    /* a rock at its release, the template if all rocks are identical */
+    struct batch *batch;
+    uint64_t from, next, to;               /* rocks of the batch: first, next to release, one past the last */
     struct arrival *arrivals;              /* [control][CEDUO_BATCH_ROCKS] */
-    double stops[CEDUO_BATCH_ROCKS];       /* NaN: it did not stop */
-    unsigned char ends[CEDUO_BATCH_ROCKS]; /* enum ceduo_end, where rocks have weights */
+    double stops[CEDUO_BATCH_ROCKS];       /* m; NaN: did not stop */
+    unsigned char ends[CEDUO_BATCH_ROCKS]; /* enum ceduo_end; used if rocks have weights */
     bool no_memory;
     struct chunk *chunk;
 };
 
 struct chunk {
     uint64_t first, end; /* rocks */
-    size_t blocks;
+    size_t batches;
     atomic_bool stop;
     struct worker *workers;
 };
@@ -49,33 +49,33 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
     double speed = sqrt(c->vx * c->vx + c->vz * c->vz);
     double translation = 0.5 * rock->mass * (speed * speed);
     double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
-    bool exceeds = energy > w->run->prepared.scene.controls[control].accepted; /* never, where that is NaN */
+    bool exceeds = energy > w->run->prepared.scene.controls[control].accepted; /* false for NaN */
     w->arrivals[control * CEDUO_BATCH_ROCKS + (walker->number - w->from)] =
-        (struct arrival){.of = {[SPEED] = speed, [HEIGHT] = c->height, [ENERGY] = energy, [TRANSLATION] = translation},
+        (struct arrival){.values = {[SPEED] = speed, [HEIGHT] = c->height, [ENERGY] = energy, [TRANSLATION] = translation},
                          .stems_hit = (double)c->stems_hit,
                          .arrives = true,
                          .exceeds = exceeds};
 }
 
-static void note_end(void *context, size_t lane, enum ceduo_end end)
+static void on_end(void *context, size_t lane, enum ceduo_end end)
 {
     struct worker *w = context;
     const struct walker *walker = &w->walkers[lane];
     if (walker->stems) {
         w->no_memory |= walker->stems->no_memory;
-        w->block->stems.drawn += walker->stems->drawn;
-        w->block->stems.hit += walker->stems_hit;
-        w->block->stems.met += walker->stools_met;
+        w->batch->stems.drawn += walker->stems->drawn;
+        w->batch->stems.hit += walker->stems_hit;
+        w->batch->stems.met += walker->stools_met;
     }
-    w->block->contacts += walker->contacts;
-    w->block->ends[end]++;
-    w->block->uphill += end == CEDUO_LEFT_SLOPE && !(walker->flight.x > 0);
-    w->block->early +=
+    w->batch->contacts += walker->contacts;
+    w->batch->ends[end]++;
+    w->batch->uphill += end == CEDUO_LEFT_SLOPE && !(walker->flight.x > 0);
+    w->batch->early +=
         end == CEDUO_STOPPED_BY_STEMS && walker->flight.x < w->run->prepared.scene.release.x.mean + CEDUO_EARLY_M;
     w->ends[walker->number - w->from] = (unsigned char)end;
     const struct marks *marks = &w->run->prepared.marks;
-    for (size_t m = walker->next_mark; m < marks->n; m++) /* it counts at each control that it did not reach */
-        w->block->controls[marks->items[m].control].ended[end]++;
+    for (size_t m = walker->next_mark; m < marks->n; m++) /* count the end at each control that the rock did not reach */
+        w->batch->controls[marks->items[m].control].end_counts[end]++;
     if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
         w->stops[walker->number - w->from] = walker->flight.x;
     if (walker->cancelled)
@@ -84,7 +84,7 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
 
 /* ---- many rocks ---- */
 
-/* The next rock of the block at its release; false where none is left. */
+/* Release the next rock of the batch; false if none is left. */
 static bool next_rock(void *context, size_t lane)
 {
     struct worker *w = context;
@@ -102,10 +102,10 @@ static bool next_rock(void *context, size_t lane)
         bool drawn = again || ceduo_walk_release(walker, &run->prepared, number) == CEDUO_OK;
         if (run->identical && !again)
             w->first = *walker;
-        if (!drawn) { /* it has no trajectory: it is unfinished before every control */
-            w->block->ends[CEDUO_UNFINISHED]++;
+        if (!drawn) { /* no trajectory: unfinished before every control */
+            w->batch->ends[CEDUO_UNFINISHED]++;
             for (size_t c = 0; c < run->controls; c++)
-                w->block->controls[c].ended[CEDUO_UNFINISHED]++;
+                w->batch->controls[c].end_counts[CEDUO_UNFINISHED]++;
             continue;
         }
         return true;
@@ -113,57 +113,57 @@ static bool next_rock(void *context, size_t lane)
     return false;
 }
 
-/* Sum what the rocks bring to a control, in their order, and keep samples. */
+/* Sum the arrivals at a control, in the order of the rocks, and store samples. */
 static void sum_arrivals(struct worker *w, size_t control)
 {
     struct ceduo_run *run = w->run;
     const struct arrival *arrivals = &w->arrivals[control * CEDUO_BATCH_ROCKS];
-    struct sums *to = &w->block->controls[control];
+    struct sums *to = &w->batch->controls[control];
     size_t n = (size_t)(w->to - w->from), from = (size_t)w->from;
-    bool spins = run->kept == QUANTITIES; /* otherwise all energy is translation */
+    bool spins = run->quantities == QUANTITIES; /* otherwise all energy is translational */
     for (size_t i = 0; i < n; i++) {
         if (!arrivals[i].arrives)
             continue;
         for (int q = 0; q < (spins ? QUANTITIES : TRANSLATION); q++)
-            ceduo_moments_add(&to->of[q], arrivals[i].of[q]);
+            ceduo_moments_add(&to->moments[q], arrivals[i].values[q]);
         if (w->stems)
             ceduo_moments_add(&to->contacts, arrivals[i].stems_hit);
         to->exceeded += arrivals[i].exceeds;
     }
     if (!spins)
-        to->of[TRANSLATION] = to->of[ENERGY];
-    for (int q = 0; q < run->kept; q++) {
-        double *column = samples_of(run, control, q) + from;
+        to->moments[TRANSLATION] = to->moments[ENERGY];
+    for (int q = 0; q < run->quantities; q++) {
+        double *column = get_samples(run, control, q) + from;
         for (size_t i = 0; i < n; i++)
-            column[i] = arrivals[i].arrives ? arrivals[i].of[q] : NAN;
+            column[i] = arrivals[i].arrives ? arrivals[i].values[q] : NAN;
     }
 }
 
-static void sum_block(struct worker *w)
+static void sum_batch(struct worker *w)
 {
     struct ceduo_run *run = w->run;
     size_t n = (size_t)(w->to - w->from);
-    for (size_t i = 0; run->sized && i < n; i++) { /* how the rocks ended, by their weights */
+    for (size_t i = 0; run->weighted && i < n; i++) { /* weights per end */
         double weight = run->weights[w->from + i];
-        w->block->ended[w->ends[i]] += weight;
+        w->batch->end_weights[w->ends[i]] += weight;
         for (size_t c = 0; c < run->controls; c++) {
             const struct arrival *a = &w->arrivals[c * CEDUO_BATCH_ROCKS + i];
             if (a->arrives)
-                weighted_sum_add(&w->block->controls[c].hits, weight, a->stems_hit);
+                weighted_sum_add(&w->batch->controls[c].hits, weight, a->stems_hit);
             else
-                w->block->controls[c].missed[w->ends[i]] += weight;
+                w->batch->controls[c].end_weights[w->ends[i]] += weight;
         }
     }
-    memcpy(stops_of(run) + w->from, w->stops, n * sizeof *w->stops);
+    memcpy(get_stops(run) + w->from, w->stops, n * sizeof *w->stops);
     for (size_t c = 0; c < run->controls; c++)
         sum_arrivals(w, c);
     for (size_t i = 0; i < n; i++)
         if (!isnan(w->stops[i]))
-            ceduo_moments_add(&w->block->stop_x, w->stops[i]);
+            ceduo_moments_add(&w->batch->stop_x, w->stops[i]);
 }
 
-/* Simulates the rocks of a block, or those of them that belong to the chunk. */
-static int take_block(void *context, size_t i, size_t worker)
+/* Simulate the rocks of a batch that belong to the chunk. */
+static int simulate_batch(void *context, size_t i, size_t worker)
 {
     struct chunk *chunk = context;
     struct worker *w = &chunk->workers[worker];
@@ -172,26 +172,26 @@ static int take_block(void *context, size_t i, size_t worker)
     uint64_t from = (chunk->first / CEDUO_BATCH_ROCKS + i) * CEDUO_BATCH_ROCKS, to = from + CEDUO_BATCH_ROCKS;
     w->from = w->next = from < chunk->first ? chunk->first : from;
     w->to = to > chunk->end ? chunk->end : to;
-    w->block = &run->slots[i];
+    w->batch = &run->slots[i];
     memset(w->arrivals, 0, run->controls * CEDUO_BATCH_ROCKS * sizeof *w->arrivals);
     memset(w->ends, CEDUO_UNFINISHED, sizeof w->ends);
     for (size_t k = 0; k < CEDUO_BATCH_ROCKS; k++)
         w->stops[k] = NAN;
-    const struct lanes_job job = {.ground = run->ground_of_lanes,
+    const struct lanes_job job = {.ground = run->lanes_ground,
                                   .law = law,
                                   .identical = run->identical,
                                   .walkers = w->walkers,
                                   .next = next_rock,
-                                  .ended = note_end,
+                                  .ended = on_end,
                                   .context = w};
-    if (run->lanes_walk)
-        run->lanes_walk(&job);
+    if (run->walk_lanes)
+        run->walk_lanes(&job);
     else
         while (next_rock(w, 0))
-            note_end(w, 0, ceduo_walk(&w->walkers[0], law));
+            on_end(w, 0, ceduo_walk(&w->walkers[0], law));
     if (atomic_load_explicit(&chunk->stop, memory_order_relaxed))
         return CEDUO_CANCELLED;
-    sum_block(w);
+    sum_batch(w);
     return CEDUO_OK;
 }
 
@@ -227,17 +227,17 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
         return CEDUO_NO_MEMORY;
     if (atomic_load(&chunk->stop))
         return CEDUO_CANCELLED;
-    /* nothing fails from here on: a chunk is there or leaves no trace */
-    for (size_t i = 0; i < chunk->blocks; i++) {
-        bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BATCH_ROCKS == 0;
-        struct block tail = run->tail;
+    /* nothing can fail from here on: a chunk is complete or leaves no trace */
+    for (size_t i = 0; i < chunk->batches; i++) {
+        bool full = i + 1 < chunk->batches || chunk->end % CEDUO_BATCH_ROCKS == 0;
+        struct batch tail = run->tail;
         if (full) {
-            ceduo_run_block_merge(&run->whole, &run->slots[i], run->controls);
+            ceduo_run_batch_merge(&run->complete, &run->slots[i], run->controls);
         } else {
             run->tail = run->slots[i];
             run->slots[i] = tail;
         }
-        ceduo_run_block_clear(&run->slots[i], run->controls);
+        ceduo_run_batch_clear(&run->slots[i], run->controls);
     }
     run->rocks = chunk->end;
     return CEDUO_OK;
@@ -245,28 +245,28 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
 
 enum ceduo_status ceduo_run_simulate_chunk(struct ceduo_run *run, uint64_t end)
 {
-    uint64_t first_block = run->rocks / CEDUO_BATCH_ROCKS;
-    uint64_t last_block = (end - 1) / CEDUO_BATCH_ROCKS;
-    struct chunk chunk = {.first = run->rocks, .end = end, .blocks = (size_t)(last_block - first_block + 1)};
-    unsigned n = run->def.threads < chunk.blocks ? run->def.threads : (unsigned)chunk.blocks;
+    uint64_t first_batch = run->rocks / CEDUO_BATCH_ROCKS;
+    uint64_t last_batch = (end - 1) / CEDUO_BATCH_ROCKS;
+    struct chunk chunk = {.first = run->rocks, .end = end, .batches = (size_t)(last_batch - first_batch + 1)};
+    unsigned n = run->def.threads < chunk.batches ? run->def.threads : (unsigned)chunk.batches;
     struct worker *workers = chunk.workers = calloc(n, sizeof *workers);
     if (!workers)
         return CEDUO_NO_MEMORY;
     bool ready = true;
     for (unsigned i = 0; i < n; i++)
         ready &= worker_init(&workers[i], run, &chunk);
-    /* the first block goes on where the tail stands; a copy, so that a cancelled chunk leaves no trace */
-    ceduo_run_block_clear(&run->slots[0], run->controls);
+    /* the first batch continues a copy of the tail, so that a cancelled chunk leaves no trace */
+    ceduo_run_batch_clear(&run->slots[0], run->controls);
     if (run->rocks % CEDUO_BATCH_ROCKS != 0)
-        ceduo_run_block_merge(&run->slots[0], &run->tail, run->controls);
+        ceduo_run_batch_merge(&run->slots[0], &run->tail, run->controls);
     enum ceduo_status status = CEDUO_NO_MEMORY;
     if (ready) {
-        ceduo_parallel(&(struct parallel){chunk.blocks, n, take_block, &chunk});
+        ceduo_parallel(&(struct parallel){chunk.batches, n, simulate_batch, &chunk});
         status = finish_chunk(run, &chunk, n);
     }
     if (status != CEDUO_OK)
-        for (size_t i = 0; i < chunk.blocks; i++)
-            ceduo_run_block_clear(&run->slots[i], run->controls);
+        for (size_t i = 0; i < chunk.batches; i++)
+            ceduo_run_batch_clear(&run->slots[i], run->controls);
     for (struct worker *w = workers; w < workers + n; w++) {
         for (size_t i = 0; w->stems && i < run->lanes; i++)
             ceduo_stems_release(&w->stems[i]);

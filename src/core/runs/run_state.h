@@ -7,32 +7,32 @@
 #include "core/walk/prepared.h"
 #include "weighted.h"
 
-/* A run from inside; only the run*.c include this.
+/* Internals of a run; included only by run*.c.
  *
- *     run.c          makes, extends and frees a run, chunk by chunk
+ *     run.c          creates, extends and frees a run, chunk by chunk
  *     run_simulate.c simulates the rocks of one chunk on several threads
- *     run_samples.c  sums of a block, merged in the order of the blocks; samples of each rock
- *     run_read.c     arrivals, differences and ends, read from sums and samples; if rocks have weights, from samples alone */
+ *     run_samples.c  sums of a batch, merged in order; samples of each rock
+ *     run_read.c     arrivals, differences and ends, from sums and samples; with weights only from samples */
 
-#ifndef CHUNK_BLOCKS
-#define CHUNK_BLOCKS 256 /* blocks in work at a time: this bounds the memory of their sums */
+#ifndef CHUNK_BATCHES
+#define CHUNK_BATCHES 256 /* maximum batches per chunk; bounds the memory of their sums */
 #endif
 
 enum quantity { SPEED, HEIGHT, ENERGY, TRANSLATION, QUANTITIES };
 
-/* What is summed at one control. Released rocks that do not arrive are known from the counts. */
+/* Sums at one control. The number of rocks that do not arrive follows from the counts. */
 struct sums {
-    struct ceduo_moments of[QUANTITIES], contacts; /* contacts: stems hit before */
-    uint64_t exceeded, ended[CEDUO_ENDS];          /* ended: rocks that did not arrive, by how they ended */
-    double missed[CEDUO_ENDS];                     /* the same by their weights, where rocks have any */
-    struct weighted_sum hits;                      /* contacts by them */
+    struct ceduo_moments moments[QUANTITIES], contacts; /* contacts: stems hit before the control */
+    uint64_t exceeded, end_counts[CEDUO_ENDS];          /* end_counts: rocks that did not arrive, by their end */
+    double end_weights[CEDUO_ENDS];                     /* likewise, sums of weights; 0 if rocks have no weights */
+    struct weighted_sum hits;                           /* contacts, with weights */
 };
 
-/* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */
-struct block {
+/* Sums of a batch: summed rock by rock and merged batch by batch, in order. */
+struct batch {
     uint64_t contacts, ends[CEDUO_ENDS];
-    uint64_t uphill, early;   /* of those that left the slope, and of those that stems stopped: see struct ceduo_ends */
-    double ended[CEDUO_ENDS]; /* ends by the weights of the rocks, where they have any */
+    uint64_t uphill, early;         /* see struct ceduo_ends */
+    double end_weights[CEDUO_ENDS]; /* sums of weights per end; 0 if rocks have no weights */
     struct ceduo_stem_counts stems;
     struct ceduo_moments stop_x;
     struct sums *controls;
@@ -41,43 +41,43 @@ struct block {
 struct ceduo_run {
     struct ceduo_run_def def;
     struct prepared_scene prepared;
-    struct lanes_ground *ground_of_lanes;
-    void (*lanes_walk)(const struct lanes_job *job); /* NULL: rocks are simulated one by one */
-    size_t lanes;                                    /* rocks that a thread simulates at once */
+    struct lanes_ground *lanes_ground;
+    void (*walk_lanes)(const struct lanes_job *job); /* NULL: simulate rocks one by one */
+    size_t lanes;                                    /* rocks simulated at once by a thread */
     size_t controls;
-    double stems_from;   /* as ceduo_option_stems_from(): the option may be gone when the run is read */
-    int kept;            /* quantities that have samples: without spin and spread all energy is translation */
-    size_t columns;      /* of samples: controls times kept, then the stops */
-    uint64_t rocks;      /* done */
-    size_t chunk;        /* blocks to take on next */
-    struct block whole;  /* all whole blocks */
-    struct block tail;   /* the block that is not full yet */
-    struct block *slots; /* in work, `slots_count` */
-    size_t slots_count;  /* CHUNK_BLOCKS, or as many as the run can have */
-    bool sized;          /* rocks have weights */
-    double *weights;     /* [capacity] */
-    bool identical;      /* the rocks differ in nothing but their numbers */
-    uint64_t capacity;   /* of the samples, in rocks */
-    double **samples;    /* [columns][capacity]; NaN: the rock did not arrive, or did not stop */
+    double stems_from;     /* ceduo_option_stems_from(), because the option may be freed before the run is read */
+    int quantities;        /* number of quantities with samples; without spin and spread all energy is translational */
+    size_t columns;        /* columns of samples: controls × quantities, then the stops */
+    uint64_t rocks;        /* finished */
+    size_t chunk;          /* batches of the next chunk */
+    struct batch complete; /* sum of all complete batches */
+    struct batch tail;     /* the last, incomplete batch */
+    struct batch *slots;   /* [slots_count]; batches of the current chunk */
+    size_t slots_count;    /* CHUNK_BATCHES, or as many as the run can have */
+    bool weighted;         /* rocks have weights */
+    double *weights;       /* [capacity] */
+    bool identical;        /* the rocks differ only in their numbers */
+    uint64_t capacity;     /* of the samples, in rocks */
+    double **samples;      /* [columns][capacity]; NaN: did not arrive, or did not stop */
 };
 
-/* NULL before the first rock. */
-static inline double *samples_of(const struct ceduo_run *run, size_t control, int quantity)
+/* Return a column of samples; NULL before the first rock. */
+static inline double *get_samples(const struct ceduo_run *run, size_t control, int quantity)
 {
-    return run->samples ? run->samples[control * (size_t)run->kept + (size_t)quantity] : NULL;
+    return run->samples ? run->samples[control * (size_t)run->quantities + (size_t)quantity] : NULL;
 }
 
-static inline double *stops_of(const struct ceduo_run *run)
+static inline double *get_stops(const struct ceduo_run *run)
 {
     return run->samples ? run->samples[run->columns - 1] : NULL;
 }
 
 /* ---- sums ---- */
 
-bool ceduo_run_block_init(struct block *b, size_t controls); /* false without memory */
-void ceduo_run_block_clear(struct block *b, size_t controls);
-void ceduo_run_block_merge(struct block *into, const struct block *from, size_t controls);
-/* All rocks of the run. */
+bool ceduo_run_batch_init(struct batch *b, size_t controls); /* false without memory */
+void ceduo_run_batch_clear(struct batch *b, size_t controls);
+void ceduo_run_batch_merge(struct batch *into, const struct batch *from, size_t controls);
+/* Return the sums over all rocks of the run. */
 struct sums ceduo_run_sums_at(const struct ceduo_run *run, size_t control);
 
 /* ---- samples ---- */
@@ -87,7 +87,7 @@ void ceduo_run_samples_free(struct ceduo_run *run);
 
 /* ---- simulating ---- */
 
-/* Simulates one chunk, from where the run stands to rock `end`. On failure the run is as it was before. */
+/* Simulate one chunk, up to rock `end`. On failure the run is unchanged. */
 enum ceduo_status ceduo_run_simulate_chunk(struct ceduo_run *run, uint64_t end);
 
 #endif

@@ -91,7 +91,7 @@ double ceduo_quantile(const double *sorted, size_t n, double p)
     return n > 0 ? sorted[ceduo_quantile_rank(n, p) - 1] : NAN;
 }
 
-/* Smallest k with P(X <= k) >= q for X binomial(n, p), looked for near its normal approximation. */
+/* Return the smallest k with P(X <= k) >= q for X binomial(n, p). The search starts at the normal approximation. */
 static size_t binomial_quantile(size_t n, double p, double q)
 {
     double count = (double)n, guess = count * p + gsl_cdf_ugaussian_Pinv(q) * sqrt(count * p * (1 - p));
@@ -106,8 +106,8 @@ static size_t binomial_quantile(size_t n, double p, double q)
 void ceduo_quantile_interval(size_t n, double p, size_t *lo, size_t *hi)
 {
     GSL_RETURNS_ERRORS;
-    /* The number of values below the quantile is binomial: [x(lo), x(hi)] holds it unless that number is below lo or at
-     * least hi, each with a chance of at most 2.5 %. */
+    /* The number of values below the quantile is binomial. [x(lo), x(hi)] contains the quantile unless this number is below lo
+     * or at least hi, each with probability at most 2.5 %. */
     *lo = binomial_quantile(n, p, 0.025);
     *hi = binomial_quantile(n, p, 0.975) + 1;
 }
@@ -119,20 +119,20 @@ struct ceduo_distribution ceduo_distribution_none(void)
 
 struct percentile ceduo_percentile_compute(struct ceduo_distribution *d, size_t k)
 {
-    const struct percentile all[PERCENTILES] = {{0.5, &d->p50, &d->p50_lo, &d->p50_hi},
-                                                {0.95, &d->p95, &d->p95_lo, &d->p95_hi},
-                                                {0.99, &d->p99, &d->p99_lo, &d->p99_hi}};
-    return all[k];
+    const struct percentile percentiles[PERCENTILES] = {{0.5, &d->p50, &d->p50_lo, &d->p50_hi},
+                                                        {0.95, &d->p95, &d->p95_lo, &d->p95_hi},
+                                                        {0.99, &d->p99, &d->p99_lo, &d->p99_hi}};
+    return percentiles[k];
 }
 
-struct wanted {
+struct target {
     size_t rank;
     double *to;
 };
 
-static int by_rank(const void *a, const void *b)
+static int compare_ranks(const void *a, const void *b)
 {
-    const struct wanted *x = a, *y = b;
+    const struct target *x = a, *y = b;
     return (x->rank > y->rank) - (x->rank < y->rank);
 }
 
@@ -145,23 +145,23 @@ struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, con
     d.sd = ceduo_moments_sd(m);
     d.se = ceduo_moments_se(m);
     d.max = m->max;
-    struct wanted wanted[3 * PERCENTILES]; /* each percentile with its interval */
+    struct target target[3 * PERCENTILES]; /* each percentile with its interval */
     size_t count = 0;
     for (size_t k = 0; k < PERCENTILES; k++) {
-        struct percentile at = ceduo_percentile_compute(&d, k);
+        struct percentile percentile = ceduo_percentile_compute(&d, k);
         size_t lo, hi;
-        ceduo_quantile_interval(n, at.p, &lo, &hi);
-        wanted[count++] = (struct wanted){ceduo_quantile_rank(n, at.p), at.value};
+        ceduo_quantile_interval(n, percentile.p, &lo, &hi);
+        target[count++] = (struct target){ceduo_quantile_rank(n, percentile.p), percentile.value};
         if (lo > 0)
-            wanted[count++] = (struct wanted){lo, at.lo};
+            target[count++] = (struct target){lo, percentile.lo};
         if (hi <= n)
-            wanted[count++] = (struct wanted){hi, at.hi};
+            target[count++] = (struct target){hi, percentile.hi};
     }
-    qsort(wanted, count, sizeof wanted[0], by_rank);
-    for (size_t i = 0, from = 0; i < count; i++) { /* each among those that are not smaller than the one before */
-        size_t at = wanted[i].rank - 1;
-        *wanted[i].to = fmin(m->max, gsl_stats_select(values + from, 1, n - from, at - from));
-        from = at;
+    qsort(target, count, sizeof target[0], compare_ranks);
+    for (size_t i = 0, from = 0; i < count; i++) { /* search only above the previous rank */
+        size_t index = target[i].rank - 1;
+        *target[i].to = fmin(m->max, gsl_stats_select(values + from, 1, n - from, index - from));
+        from = index;
     }
     return d;
 }

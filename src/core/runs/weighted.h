@@ -5,10 +5,10 @@
 #include "ceduo/hazard.h"
 #include "ceduo/statistics.h"
 
-/* Statistics of rocks that have weights, which are 1 on the mean (prepared.h). A share or a mean is that of the weights, over
- * the sum of all weights, so that nothing is above 1. Its error is that of the regression on the weights, whose mean is
- * known (Cochran 1977): what only says that heavy rocks were drawn a little too often is no error. Where all weights are
- * equal, these are the plain statistics. */
+/* Statistics of rocks with weights of mean 1 (prepared.h). Shares and means are weighted, and divided by the sum of all
+ * weights, so that no share exceeds 1. The error is that of the regression estimator on the weights, whose mean is known
+ * (Cochran 1977); it excludes the part caused by drawing heavy rocks too often. With equal weights these are the plain
+ * statistics. */
 
 /* One percentile of a distribution. */
 #define PERCENTILES 3
@@ -17,21 +17,20 @@ struct percentile {
 };
 struct percentile ceduo_percentile_compute(struct ceduo_distribution *distribution, size_t k);
 
-/* All rocks released. */
-struct released {
-    double n, w, ww; /* the sums of weights and of their squares */
-    double per_year; /* blocks a year; NaN: only shares are asked for */
-    double missing;  /* weights of the unfinished, which might have arrived */
-    /* Of each rock the largest energy that it could have, rising, and the weights of it and of all above it; NULL: no bound is
-     * known. */
-    const struct weighted *could;
+/* Totals of all released rocks. */
+struct weight_totals {
+    double n, w, ww; /* n; sums of weights and of squared weights */
+    double per_year; /* blocks per year; NaN: only shares are computed */
+    double missing;  /* sum of weights of unfinished rocks, which might have arrived */
+    /* Upper bound of the energy of each rock, sorted, with the cumulative weight from the largest down; NULL: unknown. */
+    const struct weighted *max_energies;
 };
 
 struct weighted {
     double value, weight;
 };
 
-/* Something that is summed over all rocks, of each its weight times a value; rocks of value 0 need not be added. */
+/* A sum over all rocks of weight × value; rocks of value 0 need not be added. */
 struct weighted_sum {
     double t, tt, tw;
 };
@@ -44,34 +43,35 @@ static inline void weighted_sum_add(struct weighted_sum *s, double weight, doubl
     s->tw += t * weight;
 }
 
-/* The standard error of such a sum over the sum of all weights. */
-double ceduo_weighted_se(const struct released *all, const struct weighted_sum *sum);
+/* Return the standard error of a sum divided by the sum of all weights. */
+double ceduo_weighted_se(const struct weight_totals *totals, const struct weighted_sum *sum);
 
-/* The same of a sum of differences between pairs, as in ceduo_estimate_of_pairs(). */
-struct ceduo_estimate ceduo_weighted_paired(const struct released *all, const struct weighted_sum *sum);
+/* Return the estimate of a mean difference between pairs, as ceduo_estimate_of_pairs(). */
+struct ceduo_estimate ceduo_weighted_paired(const struct weight_totals *totals, const struct weighted_sum *sum);
 
-/* Sorts n rocks with the largest energies that they could have, and sums their weights: for `could`. */
+/* Sort n upper bounds of energies and accumulate their weights, for `max_energies`. */
 void ceduo_weighted_bound(struct weighted *rocks, size_t n);
 
-/* The share of those with more than an energy (-1: of all that arrive), of which `ones` holds 1, with its 95 % interval by Wilson
- * at the number of equal rocks that would have the same error. The upper end counts the unfinished in. It is nowhere below that of
- * none of the rocks that could have so much energy, as if all of them were as likely to: so it does not rise when fewer rocks
- * arrive, and a few large ones do not bound what small ones do, of which each stands for many. */
-struct ceduo_estimate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double energy);
+/* Return the share of rocks above an energy (-1: all that arrive); `ones` is the sum of value 1 over them. Its Wilson interval
+ * uses the number of equal rocks with the same error. The upper limit counts unfinished rocks. It is at least the limit for
+ * none of the rocks that could exceed the energy. So it does not rise if fewer rocks arrive, and heavy, rare rocks cannot
+ * narrow the bound of frequent small ones. */
+struct ceduo_estimate ceduo_weighted_share(const struct weight_totals *totals, const struct weighted_sum *ones, double energy);
 
-/* Of n values, which are sorted. Percentiles have intervals after Woodruff (1952). */
-struct ceduo_distribution ceduo_weighted_distribution(const struct released *all, struct weighted *values, size_t n);
+/* Compute the distribution of n values, which are sorted in place. Intervals of percentiles after Woodruff (1952). */
+struct ceduo_distribution ceduo_weighted_distribution(const struct weight_totals *totals, struct weighted *values, size_t n);
 
-/* How many of sorted values are not above one. */
+/* Return the number of sorted values that are <= value. */
 size_t ceduo_weighted_upto(const struct weighted *sorted, size_t n, double value);
 
-/* The quantile p of sorted values. */
+/* Return quantile p of sorted values. */
 double ceduo_weighted_quantile(const struct weighted *values, size_t n, double p);
 
 void ceduo_weighted_sort(struct weighted *values, size_t n);
 
-/* The hazard from the energies of the n rocks that arrive, which are sorted. `curve` may be NULL. False without memory. */
-bool ceduo_hazard_read(const struct released *all, struct weighted *energies, size_t n, double accepted,
+/* Compute the hazard from the energies of the n arriving rocks, which are sorted in place. `curve` may be NULL. False without
+ * memory. */
+bool ceduo_hazard_read(const struct weight_totals *totals, struct weighted *energies, size_t n, double accepted,
                        struct ceduo_hazard *hazard, struct ceduo_hazard_curve *curve);
 
 #endif

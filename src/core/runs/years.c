@@ -28,10 +28,10 @@ struct ceduo_window ceduo_window_compute(const struct ceduo_option *option)
         }
         w.kind = CEDUO_WINDOW_ROTATION;
         w.first = first > w.first ? first : w.first;
-        unsigned rotation = belt->stand.cutting.rotation, together = period; /* until both begin together again */
-        while (together <= CEDUO_PERIOD_MAX && together % rotation > 0)
-            together += period;
-        period = together <= CEDUO_PERIOD_MAX ? together : period > rotation ? period : rotation;
+        unsigned rotation = belt->stand.cutting.rotation, common = period; /* least common multiple */
+        while (common <= CEDUO_PERIOD_MAX && common % rotation > 0)
+            common += period;
+        period = common <= CEDUO_PERIOD_MAX ? common : period > rotation ? period : rotation;
     }
     if (w.kind == CEDUO_WINDOW_AHEAD)
         return (struct ceduo_window){w.kind, 1, CEDUO_YEARS_AHEAD, 1};
@@ -80,7 +80,7 @@ struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene)
 
 /* ---- growing ---- */
 
-static enum ceduo_status grow(const struct ceduo_option *option, size_t controls, struct ceduo_year *y)
+static enum ceduo_status grow_year(const struct ceduo_option *option, size_t controls, struct ceduo_year *y)
 {
     size_t n = option->belts_count;
     enum ceduo_status status = CEDUO_OK;
@@ -127,7 +127,7 @@ enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const stru
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         years->years[i].year = window.first + (unsigned)i * window.step;
         years->count = i + 1;
-        status = grow(option, scene->controls_count, &years->years[i]);
+        status = grow_year(option, scene->controls_count, &years->years[i]);
     }
     if (status == CEDUO_OK)
         *out = years;
@@ -167,14 +167,14 @@ void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *sce
     }
 }
 
-/* Simulating years, as variants of a scene that differ in their forests. */
+/* Years as variants of a scene that differ in their forests. */
 struct years_run {
     struct ceduo_years *years;
     struct ceduo_pool *pool;
     const struct ceduo_simulated *bare;
-    uint64_t rocks;           /* 0: nothing is simulated */
-    struct ceduo_run_def def; /* of years with rocks of their own */
-    struct ceduo_run **runs;  /* likewise, one for each year */
+    uint64_t rocks;           /* 0: no simulation */
+    struct ceduo_run_def def; /* for years with independent rocks */
+    struct ceduo_run **runs;  /* likewise, one per year */
     struct talk talk;
 };
 
@@ -198,15 +198,15 @@ static enum ceduo_status make_year(void *context, size_t i, struct ceduo_variant
     return CEDUO_OK;
 }
 
-/* True if a rock brings more than is accepted to the last control, or reaches it if nothing is said. */
+/* True if a rock exceeds the accepted energy at the last control, or reaches it if none is given. */
 static bool is_marked(const struct ceduo_years *years, double energy)
 {
     double accepted = years->scene.controls[years->last_control].accepted;
     return isnan(accepted) ? !isnan(energy) : energy > accepted;
 }
 
-/* Rocks that bring too much get a mark. */
-static enum ceduo_status take_year(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
+/* Read the run of a year, and count the marks of its rocks. */
+static enum ceduo_status add_year(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
 {
     struct years_run *r = context;
     struct ceduo_years *years = r->years;
@@ -249,14 +249,14 @@ enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_p
     if (r.rocks > 0 && !clear_marks(years, rocks))
         return CEDUO_NO_MEMORY;
     enum ceduo_status status = ceduo_variants_run(
-        &(const struct ceduo_variants){.n = years->count, .make = make_year, .read = take_year, .pool = pool, .context = &r});
+        &(const struct ceduo_variants){.n = years->count, .make = make_year, .read = add_year, .pool = pool, .context = &r});
     years->rocks = status == CEDUO_OK ? r.rocks : years->rocks;
     return status;
 }
 
-/* ---- rocks of their own ---- */
+/* ---- independent rocks ---- */
 
-/* The years are simulated at the same time. */
+/* Called from several threads. */
 static void report_year(void *context, uint64_t rocks)
 {
     struct years_run *r = context;
@@ -266,8 +266,8 @@ static void report_year(void *context, uint64_t rocks)
     ceduo_talk_end(&r->talk);
 }
 
-/* Options have the same rocks in years that are as far into their rotations: what differs between them is their forests. */
-static int simulate_apart(void *context, size_t i, size_t worker)
+/* Options have the same rocks in years of the same index, so that their differences are caused by the forests. */
+static int simulate_independent(void *context, size_t i, size_t worker)
 {
     struct years_run *r = context;
     struct ceduo_scene scene = r->years->scene;
@@ -291,9 +291,10 @@ enum ceduo_status ceduo_years_simulate_independent(struct ceduo_years *years, co
     r.runs = calloc(years->count, sizeof *r.runs);
     enum ceduo_status status = r.runs && clear_marks(years, rocks) ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(&(const struct parallel){years->count, def->threads, simulate_apart, &r});
+        status =
+            (enum ceduo_status)ceduo_parallel(&(const struct parallel){years->count, def->threads, simulate_independent, &r});
     for (size_t i = 0; i < years->count && status == CEDUO_OK; i++)
-        status = take_year(&r, i, r.runs[i], &rocks);
+        status = add_year(&r, i, r.runs[i], &rocks);
     for (size_t i = 0; r.runs && i < years->count; i++)
         ceduo_run_free(r.runs[i]);
     free(r.runs);
@@ -303,25 +304,25 @@ enum ceduo_status ceduo_years_simulate_independent(struct ceduo_years *years, co
 
 /* ---- all years together ---- */
 
-/* Of the years the share in which a rock is marked. */
-static double share_of_years(const struct ceduo_years *years, uint64_t rock)
+/* Return the share of years in which a rock is marked. */
+static double marked_share(const struct ceduo_years *years, uint64_t rock)
 {
     return (double)years->marks[rock] / (double)years->count;
 }
 
-/* The mean of those shares, less those of `less` (NULL: of nothing), by the weights of the rocks. */
+/* Return the weighted mean of these shares, minus those of `less` (may be NULL). */
 static struct ceduo_estimate weighted_difference(const struct ceduo_years *years, const struct ceduo_years *less,
                                                  uint64_t rocks)
 {
-    struct released all = {.n = (double)rocks};
+    struct weight_totals totals = {.n = (double)rocks};
     struct weighted_sum sum = {0};
     for (uint64_t r = 0; r < rocks; r++) {
         double w = years->weights[r];
-        all.w += w;
-        all.ww += w * w;
-        weighted_sum_add(&sum, w, share_of_years(years, r) - (less ? share_of_years(less, r) : 0));
+        totals.w += w;
+        totals.ww += w * w;
+        weighted_sum_add(&sum, w, marked_share(years, r) - (less ? marked_share(less, r) : 0));
     }
-    return ceduo_weighted_paired(&all, &sum);
+    return ceduo_weighted_paired(&totals, &sum);
 }
 
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
@@ -368,18 +369,17 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
         }
     }
     struct ceduo_estimate *const means[] = {&s.reach, &s.exceed, &s.energy_per_released};
-    for (size_t i = 0; i < 3; i++) { /* of none NaN */
+    for (size_t i = 0; i < 3; i++) { /* NaN without simulated years */
         means[i]->mean /= (double)s.simulated;
         means[i]->se /= (double)s.simulated;
     }
     s.rate.mean /= (double)s.simulated;
     s.rate.lo /= (double)s.simulated;
     s.rate.hi /= (double)s.simulated;
-    if (years->rocks > 0 &&
-        control == years->last_control) { /* every rock goes through all years: its own mean is one sample */
+    if (years->rocks > 0 && control == years->last_control) { /* every rock is simulated in all years: its mean is one sample */
         struct ceduo_moments m = {0};
         for (uint64_t r = 0; r < years->rocks && !years->weights; r++)
-            ceduo_moments_add(&m, share_of_years(years, r));
+            ceduo_moments_add(&m, marked_share(years, r));
         double se = years->weights ? weighted_difference(years, NULL, years->rocks).se
                                    : ceduo_moments_sd(&m) / sqrt((double)years->rocks);
         (isnan(s.exceed.mean) ? &s.reach : &s.exceed)->se = se;
@@ -398,7 +398,7 @@ struct ceduo_estimate ceduo_years_difference(const struct ceduo_years *years, co
         return weighted_difference(years, less, rocks);
     struct ceduo_moments m = {0};
     for (uint64_t r = 0; r < rocks; r++)
-        ceduo_moments_add(&m, share_of_years(years, r) - share_of_years(less, r));
+        ceduo_moments_add(&m, marked_share(years, r) - marked_share(less, r));
     return ceduo_estimate_of_pairs(m.mean, &m, rocks);
 }
 

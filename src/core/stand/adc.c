@@ -7,39 +7,39 @@
 #include "energy.h"
 #include "strata.h"
 
-/* ---- stems that count ---- */
+/* ---- counted stems ---- */
 
-static bool counts(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+static bool is_counted(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
     return stems->per_ha > 0 && stems->dbh >= stand->counted_from;
 }
 
-struct count {
-    double per_ha, dbh; /* dbh: their mean, 0 of none */
+struct stem_count {
+    double per_ha, dbh; /* dbh: mean, m; 0 without stems */
 };
 
-static struct count count_stems(const struct ceduo_stand *stand, bool trees_too)
+static struct stem_count count_stems(const struct ceduo_stand *stand, bool with_trees)
 {
     double count = 0, sum = 0;
-    for (size_t i = 0; i < stand->shoots_count + (trees_too ? stand->trees_count : 0); i++) {
+    for (size_t i = 0; i < stand->shoots_count + (with_trees ? stand->trees_count : 0); i++) {
         const struct ceduo_stems *s = i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
-        if (!counts(stand, s))
+        if (!is_counted(stand, s))
             continue;
         count += s->per_ha;
         sum += s->per_ha * s->dbh;
     }
-    return (struct count){count, count > 0 ? sum / count : 0};
+    return (struct stem_count){count, count > 0 ? sum / count : 0};
 }
 
-static double shoots(const struct ceduo_stand *stand)
+static double counted_shoots(const struct ceduo_stand *stand)
 {
     return stand->stools_per_ha > 0 ? count_stems(stand, false).per_ha : 0;
 }
 
-/* A stool has one shoot at least. */
-static double stools(const struct ceduo_stand *stand)
+/* A stool has at least one shoot. */
+static double counted_stools(const struct ceduo_stand *stand)
 {
-    return fmin(stand->stools_per_ha, shoots(stand));
+    return fmin(stand->stools_per_ha, counted_shoots(stand));
 }
 
 /* ---- geometry ---- */
@@ -53,34 +53,33 @@ double ceduo_stool_radius(unsigned n, double s)
     return s / (2 * sine);
 }
 
-static double perimeter_of(double n, double s)
+static double ring_perimeter(double n, double s)
 {
     return n < 2 ? 0 : n * s;
 }
 
 double ceduo_stool_perimeter(double shoots_per_stool, double s)
 {
-    double whole = floor(shoots_per_stool), part = shoots_per_stool - whole;
-    double p = perimeter_of(whole, s);
-    return part > 0 ? (1 - part) * p + part * perimeter_of(whole + 1, s) : p;
+    double integer = floor(shoots_per_stool), part = shoots_per_stool - integer;
+    double p = ring_perimeter(integer, s);
+    return part > 0 ? (1 - part) * p + part * ring_perimeter(integer + 1, s) : p;
 }
 
 /* ---- strata ---- */
 
-/* One term of a form's denominator: what is met as one, how wide each stands beyond the rock's own diameter, and what a
- * contact with it takes. A rock of diameter b meets it per_ha (b + width)/HECTARE times a metre. */
-struct stratum {
+/* One term of a form's denominator. A rock of diameter b has per_ha (b + width)/HECTARE contacts per metre with it. */
+struct adc_term {
     double per_ha;
-    double width;  /* m */
-    double energy; /* J */
+    double width;  /* m, in addition to the rock's diameter */
+    double energy; /* J per contact */
 };
 
-/* The stools, in one of the forms that take each as one. */
-static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_rule rule)
+/* Return the term of the stools, in a form that counts each stool as one. */
+static struct adc_term make_stools_term(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
     double count = 0, energy = 0, width = count_stems(stand, rule == CEDUO_GSTEIGER_STOOLS).dbh;
     for (size_t i = 0; i < stand->shoots_count; i++) {
-        if (!counts(stand, &stand->shoots[i]))
+        if (!is_counted(stand, &stand->shoots[i]))
             continue;
         count += stand->shoots[i].per_ha;
         energy += stand->shoots[i].per_ha * ceduo_contact_energy(stand, &stand->shoots[i]);
@@ -88,21 +87,21 @@ static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_
     if (rule == CEDUO_INTERCEPTION)
         width += stand->spacing;
     else if (rule != CEDUO_GSTEIGER_STOOLS)
-        width += ceduo_stool_perimeter(shoots(stand) / stools(stand), stand->spacing) / M_PI;
-    return (struct stratum){stools(stand), width, energy / count};
+        width += ceduo_stool_perimeter(counted_shoots(stand) / counted_stools(stand), stand->spacing) / M_PI;
+    return (struct adc_term){counted_stools(stand), width, energy / count};
 }
 
-/* How many strata the shoots make. */
-static size_t shoot_strata(const struct ceduo_stand *stand, enum ceduo_rule rule)
+/* Return the number of terms of the shoots. */
+static size_t count_shoot_terms(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
-    return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : shoots(stand) > 0;
+    return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : counted_shoots(stand) > 0;
 }
 
-/* The strata of a stand by a form of the ADC (not AUTO): the stools, or with gsteiger-stems each cohort of shoots, then
- * each class of trees, stumps and logs. */
-static size_t strata_count(const struct ceduo_stand *stand, enum ceduo_rule rule)
+/* Return the number of terms of a stand in a form of the ADC (not AUTO). These are the stools, or with gsteiger-stems each
+ * cohort of shoots, then each class of trees, stumps and logs. */
+static size_t count_terms(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
-    return shoot_strata(stand, rule) + stand->trees_count + (stand->stumps.per_ha > 0) + (stand->logs.per_ha > 0);
+    return count_shoot_terms(stand, rule) + stand->trees_count + (stand->stumps.per_ha > 0) + (stand->logs.per_ha > 0);
 }
 
 double ceduo_log_width(double length)
@@ -110,27 +109,28 @@ double ceduo_log_width(double length)
     return 2 * length / M_PI;
 }
 
-static struct stratum stratum_of(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i)
+static struct adc_term make_term(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i)
 {
-    size_t n = shoot_strata(stand, rule);
+    size_t n = count_shoot_terms(stand, rule);
     if (i < n && rule != CEDUO_GSTEIGER_STEMS)
-        return stools_as_one(stand, rule);
-    const struct ceduo_stumps *low = &stand->stumps; /* stumps if there are any, then logs */
-    if (i == n + stand->trees_count && low->per_ha > 0)
-        return (struct stratum){low->per_ha, low->diameter, low->energy};
+        return make_stools_term(stand, rule);
+    const struct ceduo_stumps *stumps = &stand->stumps; /* stumps if any, then logs */
+    if (i == n + stand->trees_count && stumps->per_ha > 0)
+        return (struct adc_term){stumps->per_ha, stumps->diameter, stumps->energy};
     if (i >= n + stand->trees_count)
-        return (struct stratum){stand->logs.per_ha, ceduo_log_width(stand->logs.length), stand->logs.energy};
+        return (struct adc_term){stand->logs.per_ha, ceduo_log_width(stand->logs.length), stand->logs.energy};
     const struct ceduo_stems *s = i < n ? &stand->shoots[i] : &stand->trees[i - n];
     double width = rule == CEDUO_GSTEIGER_STOOLS ? count_stems(stand, true).dbh : s->dbh;
-    return (struct stratum){counts(stand, s) ? s->per_ha : 0, width, ceduo_contact_energy(stand, s)};
+    return (struct adc_term){is_counted(stand, s) ? s->per_ha : 0, width, ceduo_contact_energy(stand, s)};
 }
 
-/* The form's denominator for a rock of diameter b, m per ha: A/ADC; or the same with each term times its energy. */
-static double width_per_ha(const struct ceduo_stand *stand, double b, enum ceduo_rule rule, bool energies)
+/* Return the form's denominator for a rock of diameter b, m per ha: A/ADC; with `energies` each term is multiplied by its
+ * energy. */
+static double denominator_per_ha(const struct ceduo_stand *stand, double b, enum ceduo_rule rule, bool energies)
 {
     double sum = 0;
-    for (size_t i = 0, n = strata_count(stand, rule); i < n; i++) {
-        struct stratum s = stratum_of(stand, rule, i);
+    for (size_t i = 0, n = count_terms(stand, rule); i < n; i++) {
+        struct adc_term s = make_term(stand, rule, i);
         sum += s.per_ha * (b + s.width) * (energies ? s.energy : 1);
     }
     return sum;
@@ -138,17 +138,17 @@ static double width_per_ha(const struct ceduo_stand *stand, double b, enum ceduo
 
 struct ceduo_adc ceduo_adc(const struct ceduo_stand *stand, double b)
 {
-    return (struct ceduo_adc){.gsteiger_stools = HECTARE / width_per_ha(stand, b, CEDUO_GSTEIGER_STOOLS, false),
-                              .gsteiger_stems = HECTARE / width_per_ha(stand, b, CEDUO_GSTEIGER_STEMS, false),
-                              .interception = HECTARE / width_per_ha(stand, b, CEDUO_INTERCEPTION, false),
-                              .crofton = HECTARE / width_per_ha(stand, b, CEDUO_CROFTON, false)};
+    return (struct ceduo_adc){.gsteiger_stools = HECTARE / denominator_per_ha(stand, b, CEDUO_GSTEIGER_STOOLS, false),
+                              .gsteiger_stems = HECTARE / denominator_per_ha(stand, b, CEDUO_GSTEIGER_STEMS, false),
+                              .interception = HECTARE / denominator_per_ha(stand, b, CEDUO_INTERCEPTION, false),
+                              .crofton = HECTARE / denominator_per_ha(stand, b, CEDUO_CROFTON, false)};
 }
 
 enum ceduo_rule ceduo_adc_rule(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
 {
     if (rule != CEDUO_RULE_AUTO)
         return rule;
-    return !(shoots(stand) > 0) || b < stand->spacing ? CEDUO_GSTEIGER_STEMS : CEDUO_INTERCEPTION;
+    return !(counted_shoots(stand) > 0) || b < stand->spacing ? CEDUO_GSTEIGER_STEMS : CEDUO_INTERCEPTION;
 }
 
 double ceduo_adc_value(const struct ceduo_adc *adc, enum ceduo_rule rule)
@@ -162,21 +162,21 @@ double ceduo_adc_value(const struct ceduo_adc *adc, enum ceduo_rule rule)
 
 double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
 {
-    return width_per_ha(stand, b, ceduo_adc_rule(stand, b, rule), true) / HECTARE;
+    return denominator_per_ha(stand, b, ceduo_adc_rule(stand, b, rule), true) / HECTARE;
 }
 
-#define ABOVE(value, most) ((value) > (most) * (1 + 1e-9)) /* what is typed as the limit itself is not beyond it */
+#define ABOVE(value, limit) ((value) > (limit) * (1 + 1e-9)) /* a value typed as the limit is not above it */
 
 unsigned ceduo_stem_unlikely(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
     size_t n;
     double slender = stems->height / stems->dbh;
-    double thickest = stand->species >= 0 ? ceduo_species_list(&n)[stand->species].d_hi / 100 : INFINITY;
+    double dbh_max = stand->species >= 0 ? ceduo_species_list(&n)[stand->species].d_hi / 100 : INFINITY;
     if (!(stems->per_ha > 0))
         return 0;
     return (ABOVE(slender, CEDUO_SLENDERNESS_MAX) ? CEDUO_WARN_SLENDER : 0u) |
            (ABOVE(CEDUO_SLENDERNESS_MIN, slender) ? CEDUO_WARN_STOUT : 0u) |
-           (ABOVE(stems->dbh, thickest) ? CEDUO_WARN_THICK : 0u);
+           (ABOVE(stems->dbh, dbh_max) ? CEDUO_WARN_THICK : 0u);
 }
 
 unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
@@ -191,7 +191,7 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
         const struct ceduo_stems *s = i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
         warnings |= ceduo_stem_unlikely(stand, s) | (s->per_ha > 0 ? ceduo_stem_energy_warnings(stand, s) : 0);
     }
-    if (!(shoots(stand) > 0))
+    if (!(counted_shoots(stand) > 0))
         return warnings;
     struct ceduo_adc adc = ceduo_adc(stand, b);
     if (adc.interception < adc.gsteiger_stems)

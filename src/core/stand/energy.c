@@ -37,7 +37,7 @@ void ceduo_stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
 {
     hash_count(hash, (uint64_t)e->model);
     hash_volume(hash, &e->volume);
-    hash_array(hash, e->of);
+    hash_array(hash, e->values);
 }
 
 double ceduo_stem_energy_mean(const struct stem_energy *e)
@@ -66,7 +66,7 @@ double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_
     return ceduo_stem_energy_mean(&energy);
 }
 
-/* ---- what several laws say ---- */
+/* ---- common to laws ---- */
 
 double ceduo_dorren_energy(double dbh, double fracture_ratio)
 {
@@ -76,10 +76,10 @@ double ceduo_dorren_energy(double dbh, double fracture_ratio)
 double ceduo_dorren_share(double u)
 {
     double share = DORREN_SHARE_OF(ceduo_exp(DORREN_EXPONENT(u)));
-    return 0.5 * (share + fabs(share)); /* 0 where it is negative: a quarter of all hits, which no processor guesses */
+    return 0.5 * (share + fabs(share)); /* max(0, share) without a branch: a quarter of all hits, unpredictable */
 }
 
-/* The integral of the cut share over 0…1. With y = 10^(8.007(u - 0.58)) the share is -0.046 + 1.026/(1 + y), whose
+/* Return the integral of the clamped share over 0…1. With y = 10^(8.007(u - 0.58)) the share is -0.046 + 1.026/(1 + y), whose
  * antiderivative is elementary; it is 0 from u0 on, where y = 1.026/0.046 - 1. */
 double ceduo_dorren_mean_share(void)
 {

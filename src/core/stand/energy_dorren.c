@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Dorren et al. 2006: FE·38.7·dbh_cm^2.31 J for a hit in the middle of the stem, less for one beside it. */
+/* Dorren et al. 2006: FE·38.7·dbh_cm^2.31 J for a centred hit, less off the centre. */
 #include "energy.h"
 
-#define DBH_MIN 0.1 /* m: thinner stems lie outside the data */
+#define DBH_MIN 0.1 /* m: thinner stems are outside the data */
 
-enum { RATIO /* FE */, DBH /* m, of the mean stem */, WHOLE /* J, of that stem: most hits are of stems that are all alike */ };
+enum { RATIO /* FE */, DBH /* m, of the mean stem */, CENTRED /* J, of that stem: most hits reuse it */ };
 
 static void prepare(struct stem_energy *to, const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    to->of[RATIO] = ceduo_stand_fracture_ratio(stand);
-    to->of[DBH] = stems->dbh;
-    to->of[WHOLE] = ceduo_dorren_energy(stems->dbh, to->of[RATIO]);
+    to->values[RATIO] = ceduo_stand_fracture_ratio(stand);
+    to->values[DBH] = stems->dbh;
+    to->values[CENTRED] = ceduo_dorren_energy(stems->dbh, to->values[RATIO]);
 }
 
 static double mean(const struct stem_energy *e)
 {
-    return ceduo_dorren_mean_share() * e->of[WHOLE];
+    return ceduo_dorren_mean_share() * e->values[CENTRED];
 }
 
 static double hit(const struct stem_energy *e, double dbh, double share)
 {
-    return share * (dbh == e->of[DBH] ? e->of[WHOLE] : ceduo_dorren_energy(dbh, e->of[RATIO]));
+    return share * (dbh == e->values[DBH] ? e->values[CENTRED] : ceduo_dorren_energy(dbh, e->values[RATIO]));
 }
 
 static bool by_eccentricity(const struct stem_energy *e)
@@ -32,9 +32,9 @@ static bool by_eccentricity(const struct stem_energy *e)
 static unsigned warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
     size_t count;
-    bool known = stand->species >= 0 && !isnan(ceduo_species_list(&count)[stand->species].fracture_ratio);
+    bool is_known = stand->species >= 0 && !isnan(ceduo_species_list(&count)[stand->species].fracture_ratio);
     return (stems->dbh < DBH_MIN ? CEDUO_WARN_DORREN_THIN : 0u) |
-           (isnan(stand->fracture_ratio) && !known ? CEDUO_WARN_RATIO_ASSUMED : 0u);
+           (isnan(stand->fracture_ratio) && !is_known ? CEDUO_WARN_RATIO_ASSUMED : 0u);
 }
 
 const struct energy_law ceduo_energy_dorren = {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A centre at the offset c meets none of its n trees with the chance (1 - p)^n, p the share of its disc that lies in the
- * strip. Integrals go from kink to kink of p by the rule of Gauss and Kronrod with 21 points; towards the kinks, where p goes
- * with a power of 3/2, the points are closer. */
+/* A group with centre at offset c has no tree in the strip with probability (1 - p)^n, p the share of its disc in the strip.
+ * Integrals between kinks of p use the 21-point Gauss-Kronrod rule. Points are closer near the kinks, at which p has a power of
+ * 3/2. */
 #include "strata.h"
 
 #include <gsl/gsl_integration.h>
@@ -9,88 +9,88 @@
 
 /* ---- the share of a disc ---- */
 
-/* Of a disc of radius 1 the area left of t. */
-static double area_left(double t)
+/* Return the area of a disc of radius 1 left of t. */
+static double area_left_of(double t)
 {
     t = fmin(1, fmax(-1, t));
     return t * sqrt(1 - t * t) + asin(t) + M_PI_2;
 }
 
-/* And the area left of a and below b. */
+/* Return its area left of a and below b. */
 static double area_corner(double a, double b)
 {
     if (a <= -1 || b <= -1)
         return 0;
     if (a * a + b * b < 1)
-        return (area_left(a) + area_left(b)) / 2 - M_PI_4 + a * b;
+        return (area_left_of(a) + area_left_of(b)) / 2 - M_PI_4 + a * b;
     if (a < 0 || b < 0)
-        return a < 0 && b < 0 ? 0 : area_left(fmin(a, b));
-    return area_left(a) + area_left(b) - M_PI;
+        return a < 0 && b < 0 ? 0 : area_left_of(fmin(a, b));
+    return area_left_of(a) + area_left_of(b) - M_PI;
 }
 
 /* ---- integrals ---- */
 
-struct stretch {
-    gsl_function of;
+struct interval {
+    gsl_function f;
     double from, to;
 };
 
-/* x = from + (to - from) s2(3 - 2s). */
-static double eased(double s, void *context)
+/* Substitution x = from + (to - from) s2(3 - 2s). */
+static double substituted(double s, void *context)
 {
-    const struct stretch *t = context;
+    const struct interval *t = context;
     double span = t->to - t->from, x = t->from + span * (s * s * (3 - 2 * s));
-    return t->of.function(x, t->of.params) * (span * 6 * s * (1 - s));
+    return t->f.function(x, t->f.params) * (span * 6 * s * (1 - s));
 }
 
-/* Of a smooth function between two kinks. The bound asks nothing of the rule: more points would not be taken. */
-static double integral(double (*of)(double x, void *context), void *context, double from, double to)
+/* Integrate a smooth function between two kinks. The infinite tolerance fixes the rule at 21 points. */
+static double integral(double (*f)(double x, void *context), void *context, double from, double to)
 {
-    struct stretch t = {{of, context}, from, to};
-    gsl_function function = {eased, &t};
+    struct interval t = {{f, context}, from, to};
+    gsl_function function = {substituted, &t};
     double result = 0, error;
     size_t evaluations;
     gsl_integration_qng(&function, 0, 1, HUGE_VAL, 0, &result, &error, &evaluations);
     return result;
 }
 
-struct across {
+struct strip {
     const struct group_shape *shape;
     double length, x;
 };
 
-static double met_at(double y, void *context)
+static double hit_chance(double y, void *context)
 {
-    const struct across *a = context;
+    const struct strip *a = context;
     double r = a->shape->radius, half = a->shape->width / 2;
     double a0 = -a->x / r, a1 = (a->length - a->x) / r, b0 = (-half - y) / r, b1 = (half - y) / r;
     double area = area_corner(a1, b1) - area_corner(a0, b1) - area_corner(a1, b0) + area_corner(a0, b0);
     return 1 - pow(1 - fmin(1, fmax(0, area / M_PI)), a->shape->n);
 }
 
-/* Over all offsets, of centres at x. */
-static double met_across(double x, void *context)
+/* Integrate over all offsets, for centres at x. */
+static double hit_chance_at_x(double x, void *context)
 {
-    struct across a = *(const struct across *)context;
+    struct strip a = *(const struct strip *)context;
     double half = a.shape->width / 2, r = a.shape->radius, kink = fabs(half - r);
     a.x = x;
-    return 2 * (integral(met_at, &a, 0, kink) + integral(met_at, &a, kink, half + r));
+    return 2 * (integral(hit_chance, &a, 0, kink) + integral(hit_chance, &a, kink, half + r));
 }
 
-double ceduo_groups_met_along(const struct group_shape *g, double length)
+double ceduo_groups_met_along(const struct group_shape *shape, double length)
 {
-    struct across a = {.shape = g, .length = 4 * g->radius};
-    return length * (g->radius > 0 ? met_across(2 * g->radius, &a) : g->width);
+    struct strip a = {.shape = shape, .length = 4 * shape->radius};
+    return length * (shape->radius > 0 ? hit_chance_at_x(2 * shape->radius, &a) : shape->width);
 }
 
-/* Both ends are alike: twice what is met up to the middle. */
-double ceduo_groups_met_within(const struct group_shape *g, double length)
+/* Both ends are symmetric: twice the integral up to the middle. */
+double ceduo_groups_met_within(const struct group_shape *shape, double length)
 {
-    double r = g->radius, middle = length / 2;
-    struct across a = {.shape = g, .length = length};
+    double r = shape->radius, middle = length / 2;
+    struct strip a = {.shape = shape, .length = length};
     if (!(r > 0))
-        return length * g->width;
-    if (length < 2 * r) /* both ends cut a disc in the middle */
-        return 2 * (integral(met_across, &a, -r, length - r) + integral(met_across, &a, length - r, middle));
-    return 2 * integral(met_across, &a, -r, r) + (middle - r) * 2 * met_across(middle, &a);
+        return length * shape->width;
+    if (length < 2 * r) /* both ends cut a central disc */
+        return 2 * (integral(hit_chance_at_x, &a, -r, length - r) + integral(hit_chance_at_x, &a, length - r, middle));
+    return 2 * integral(hit_chance_at_x, &a, -r, r) + (middle - r) * 2 * hit_chance_at_x(middle, &a);
 }

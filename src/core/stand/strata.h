@@ -6,17 +6,17 @@
 
 #define HECTARE 1e4 /* m2 */
 
-/* m that a log of `length` m offers beyond the rock's diameter, at a random angle (Buffon): 2 L/pi. */
+/* Return the mean width (m) of a log of `length` m at a random angle, in addition to the rock's diameter (Buffon): 2 L/pi. */
 double ceduo_log_width(double length);
 
-/* Groups of n trees, each uniform in a disc of radius r around a centre; centres are a Poisson process in the plane. What
- * a strip of width w (the rock's diameter and a tree's) meets of them. */
+/* Groups of n trees, each tree uniform in a disc of radius r around a centre. Centres are a Poisson process in the plane. A
+ * strip has the width of the rock plus the diameter of a tree. */
 struct group_shape {
     double n, radius, width;
 };
 
-/* Groups of which at least one tree is met, for one centre to the square metre: of all on `length` m of a strip that goes
- * on in both directions; of all in the plane on a strip that is so long and no longer. */
+/* Return the number of groups with at least one tree in the strip, for one centre per square metre: _along per `length` m of an
+ * infinite strip; _within for all groups of the plane and a strip of finite length. */
 double ceduo_groups_met_along(const struct group_shape *shape, double length);
 double ceduo_groups_met_within(const struct group_shape *shape, double length);
 

@@ -19,42 +19,42 @@ double ceduo_stand_volume(const struct ceduo_stand *stand)
     return sum;
 }
 
-/* A stand over one rotation from its first cut on, m3/ha. */
+/* Sums of a stand over one rotation from its first cut on, m3/ha. */
 struct rotation_sum {
     double felled, died, standing; /* standing: summed over the years */
-    double space;                  /* that the trees take before a cut */
+    double space;                  /* share of growing space that the trees take before a cut */
 };
 
 static enum ceduo_status sum_rotation(const struct ceduo_belt *belt, unsigned first, struct rotation_sum *sum)
 {
     const struct ceduo_stand *stand = &belt->stand;
     unsigned rotation = stand->cutting.rotation;
-    struct ceduo_grown_stand now, next;
+    struct ceduo_grown_stand current, next;
     enum ceduo_volume_from from;
-    enum ceduo_status status = ceduo_stand_at(stand, belt->cut_year, first, &now);
+    enum ceduo_status status = ceduo_stand_at(stand, belt->cut_year, first, &current);
     if (status != CEDUO_OK)
         return status;
-    double after_cut = ceduo_stand_volume(&now.stand);
+    double after_cut = ceduo_stand_volume(&current.stand);
     for (unsigned t = 1; t <= rotation && status == CEDUO_OK; t++) {
-        sum->standing += ceduo_stand_volume(&now.stand);
+        sum->standing += ceduo_stand_volume(&current.stand);
         status = t < rotation ? ceduo_stand_at(stand, belt->cut_year, first + t, &next)
                               : ceduo_stand_before_cut(stand, belt->cut_year, first + t, &next);
         if (status == CEDUO_OK) {
-            size_t n = now.stand.shoots_count, m = next.stand.shoots_count;
-            double died = 0; /* shoots alone: trees do not die */
+            size_t n = current.stand.shoots_count, m = next.stand.shoots_count;
+            double died = 0; /* only shoots: trees do not die */
             /* untaken: bound */
-            for (size_t i = 1; i <= n && i <= m; i++) { /* both end with the oldest: a younger cohort may have come up */
-                const struct ceduo_stems *before = &now.stand.shoots[n - i], *after = &next.stand.shoots[m - i];
-                died += fmax(0, before->per_ha - after->per_ha) * ceduo_stem_volume(&now.stand, before, &from);
+            for (size_t i = 1; i <= n && i <= m; i++) { /* aligned at the oldest cohort: a younger cohort may have been added */
+                const struct ceduo_stems *before = &current.stand.shoots[n - i], *after = &next.stand.shoots[m - i];
+                died += fmax(0, before->per_ha - after->per_ha) * ceduo_stem_volume(&current.stand, before, &from);
             }
             sum->died += died;
-            ceduo_grown_stand_release(&now);
-            now = next;
+            ceduo_grown_stand_release(&current);
+            current = next;
         }
     }
-    sum->felled = ceduo_stand_volume(&now.stand) - after_cut;
-    sum->space = ceduo_growing_space_used(&stand->growth, &now.stand);
-    ceduo_grown_stand_release(&now);
+    sum->felled = ceduo_stand_volume(&current.stand) - after_cut;
+    sum->space = ceduo_growing_space_used(&stand->growth, &current.stand);
+    ceduo_grown_stand_release(&current);
     return status;
 }
 
@@ -91,7 +91,7 @@ static enum ceduo_status list_fellings(const struct ceduo_option *option, unsign
             status = ceduo_stand_before_cut(&belt->stand, belt->cut_year, year, &before);
             if (status == CEDUO_OK)
                 status = ceduo_stand_at(&belt->stand, belt->cut_year, year, &after);
-            if (status == CEDUO_OK) { /* an inventory may be poorer than what its cuts leave */
+            if (status == CEDUO_OK) { /* an inventory may have less than its cuts leave */
                 f->volume = fmax(0, ceduo_stand_volume(&before.stand) - ceduo_stand_volume(&after.stand));
                 f->stems_per_ha = fmax(0, ceduo_stand_shoots(&before.stand) + ceduo_stand_trees(&before.stand) -
                                               ceduo_stand_shoots(&after.stand) - ceduo_stand_trees(&after.stand));
@@ -120,12 +120,12 @@ enum ceduo_status ceduo_yield_compute(const struct ceduo_option *option, unsigne
         if (ceduo_stand_is_bare(&belt->stand) && !ceduo_stand_sprouts(&belt->stand))
             continue;
         status = first == CEDUO_NEVER ? CEDUO_OK : sum_rotation(belt, first, &sum);
-        double known = first == CEDUO_NEVER || sum.space > 1 ? NAN : metres / rotation;
+        double weight = first == CEDUO_NEVER || sum.space > 1 ? NAN : metres / rotation;
         yield->space = fmax(yield->space, sum.space);
         length += metres;
-        felled += known * sum.felled;
-        died += known * sum.died;
-        standing += known * sum.standing;
+        felled += weight * sum.felled;
+        died += weight * sum.died;
+        standing += weight * sum.standing;
         today += metres * ceduo_stand_volume(&belt->stand);
     }
     yield->cut_per_year = felled / length; /* NaN without a forest */

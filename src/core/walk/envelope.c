@@ -16,17 +16,15 @@ struct passing_values {
     double *height, *energy;
 };
 
-static void add_rock(struct passing_values *to, const struct ceduo_rock *rock, const struct ceduo_crossing *crossing)
+static void add_rock(struct passing_values *to, const struct ceduo_rock *rock, const struct ceduo_crossing *c)
 {
-    if (!crossing->reached)
+    if (!c->reached)
         return;
-    to->height[to->n] = crossing->height;
-    to->energy[to->n++] = 0.5 * rock->mass * (crossing->vx * crossing->vx + crossing->vz * crossing->vz) +
-                          0.5 * rock->moment * (crossing->spin * crossing->spin);
+    to->height[to->n] = c->height;
+    to->energy[to->n++] = 0.5 * rock->mass * (c->vx * c->vx + c->vz * c->vz) + 0.5 * rock->moment * (c->spin * c->spin);
 }
 
-/* Return the values of ranks p n, rounded up. Each selection leaves smaller values before its rank and larger values after
- * it. */
+/* Return the values of ranks p n, rounded up. Each selection leaves smaller values before its rank and larger ones after it. */
 static struct ceduo_cell_quantiles select_ranks(double *values, size_t n)
 {
     if (n == 0)

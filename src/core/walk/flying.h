@@ -120,7 +120,7 @@ static bool take_stem(struct walker *w, int side, struct stem *stem)
 static inline void count_hit(struct walker *w, const struct stem *stem)
 {
     w->stems_hit++;
-    w->stools_met += ceduo_stems_next_hit(w->stems, stem);
+    w->stools_met += ceduo_stems_record_hit(w->stems, stem);
 }
 
 /* Record a hit of a stem at x by a rock of kinetic energy `energy`. Return the remaining share of its speed, 0 if it is

@@ -181,7 +181,7 @@ static inline void save_stems(const struct lanes *k, size_t i)
     if (!k->stem.next[i])
         return;
     struct stems_side *side = &w->stems->side[0];
-    side->first = (size_t)(k->stem.next[i] - side->waiting);
+    side->first = (size_t)(k->stem.next[i] - side->queue);
     w->stem_ahead = side->next = k->stem_ahead[i];
 }
 
@@ -197,7 +197,7 @@ static void load_stem(struct lanes *k, size_t i)
     struct stems_side *side = &w->stems->side[0];
     k->stem.hit[i] = w->stems_hit;
     k->stem.stools_met[i] = w->stools_met;
-    k->stem.met[i] = w->stems->met;
+    k->stem.met[i] = w->stems->hit_stools;
     k->stem.overlap_to[i] = w->stems->start + 2 * w->stems->wood->reach;
     k->stem.next[i] = NULL;
     k->stem.second_x[i] = k->stem.certain_to[i] = INFINITY;
@@ -209,11 +209,11 @@ static void load_stem(struct lanes *k, size_t i)
     }
     k->stem.height[i] = ceduo_stems_next(side)->height;
     k->stem.cost[i] = ceduo_stems_next(side)->energy;
-    if (side->next_waits) {
-        side->waiting[side->end].along = INFINITY;
-        k->stem.next[i] = &side->waiting[side->first];
+    if (side->next_queued) {
+        side->queue[side->end].along = INFINITY;
+        k->stem.next[i] = &side->queue[side->first];
         k->stem.second_x[i] = k->stem.next[i][1].along;
-        k->stem.certain_to[i] = side->sure;
+        k->stem.certain_to[i] = side->certain_to;
     }
 }
 

@@ -99,7 +99,7 @@ FORCE_INLINE unsigned fly_over(struct lanes *k, size_t i, unsigned active, real 
  * consume several. No branch depends on the hits. */
 FORCE_INLINE void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned above)
 {
-    uint64_t places = k->job->walkers[0].stems->wood->places;
+    uint64_t places = k->job->walkers[0].stems->wood->met_mask;
     for (above &= lanes; above; above &= above - 1) {
         size_t i = (size_t)__builtin_ctz(above);
         const struct stem *stem = k->stem.next[i];

@@ -53,10 +53,10 @@ struct size ceduo_rock_size(const struct sizes *s, uint64_t rock)
 
 bool ceduo_rock_is_typical(const struct sizes *s, uint64_t seed, uint64_t rock)
 {
-    double most = 0;
+    double max = 0;
     for (size_t i = 0; i < s->n; i++)
-        most = s->classes[i].weight > most ? s->classes[i].weight : most;
-    return random_pair(seed, rock, 1, RANDOM_SIZE).u[0] * most < ceduo_rock_size(s, rock).weight;
+        max = s->classes[i].weight > max ? s->classes[i].weight : max;
+    return random_pair(seed, rock, 1, RANDOM_SIZE).u[0] * max < ceduo_rock_size(s, rock).weight;
 }
 
 void ceduo_rock_resize(struct ceduo_rock *rock, double volume)

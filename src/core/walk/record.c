@@ -56,10 +56,10 @@ static double largest_height(const struct ceduo_scene *scene, const struct ceduo
 {
     const struct ceduo_slope *s = &scene->slope;
     double t[2], gravity = scene->simulation.gravity;
-    double highest = p->z - ceduo_slope_height(s, p->x), left = fmin(p->x, p->x1), right = max(p->x, p->x1);
-    size_t last = ceduo_slope_segment(s, right);
-    for (size_t j = ceduo_slope_segment(s, left); right > left && j <= last; j++) {
-        if (!part_above(s, p, j, left, right, t))
+    double highest = p->z - ceduo_slope_height(s, p->x), lo = fmin(p->x, p->x1), hi = max(p->x, p->x1);
+    size_t last = ceduo_slope_segment(s, hi);
+    for (size_t j = ceduo_slope_segment(s, lo); hi > lo && j <= last; j++) {
+        if (!part_above(s, p, j, lo, hi, t))
             continue;
         double top = (p->vz - (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]) * p->vx) / gravity;
         highest = max(highest, max(height_in(s, p, gravity, j, t[0]), height_in(s, p, gravity, j, t[1])));

@@ -5,22 +5,21 @@
 #include "ceduo/run.h"
 #include "core/wood/stems_state.h"
 
-/* What is compiled for each kind of registers. */
+/* Functions compiled for each kind of registers. */
 struct lanes_job;
 struct kernel {
-    /* Follows many rocks at once (lanes.h); NULL: they are followed one by one. */
+    /* Simulates many rocks at once (lanes.h); NULL: not available, simulate them one by one. */
     void (*walk)(const struct lanes_job *job);
     /* Draws the next places of a stream. */
     void (*fill)(struct stems *stems, int side, enum stem_stream stream);
-    /* Makes some of the stools that come next on a side, of which the shoots are alike and stand ahead of the release;
-     * there is room for SHOOTS_AT_ONCE. */
+    /* Makes some of the next stools of a side. Requires plain stools ahead of the release, and capacity for SHOOTS_MAX. */
     void (*make_stools)(struct stems *stems, int side);
 };
 
-/* Of the best kind of registers that this machine has, or of that kind if it has it; otherwise for any machine. */
+/* Return the kernel of the best registers of this machine, or the wanted kernel if available; otherwise the scalar one. */
 const struct kernel *ceduo_kernel(enum ceduo_kernel wanted);
 
-/* The last is for any machine, the others for x86-64. */
+/* The last one runs on any machine, the others need x86-64. */
 extern const struct kernel ceduo_kernel_avx512, ceduo_kernel_avx2, ceduo_kernel_scalar;
 
 #endif

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The stems that a rock can hit, drawn as it reaches them. In each direction stools are one Poisson process along x,
- * all single trees, stumps and logs another, groups of trees a third, each drawn some places ahead
- * (stems_fill.h). A stool or group is made whole when the rock comes near, and its stems wait, sorted, because they stand
- * around its centre. Work is counted as effort,
- * and drawing pauses now and then, so that a caller can cancel. */
+/* Stems that a rock can hit, drawn as it reaches them. In each direction stools are one Poisson process along x, single trees,
+ * stumps and logs a second, groups of trees a third. Each is drawn some places ahead (stems_fill.h). All stems of a stool or
+ * group are made when the rock comes near. They stand around its centre, so they wait in a sorted queue. Work is counted as
+ * effort. Drawing pauses regularly, so that the caller can cancel. */
 #include "stems.h"
 
 #include <math.h>
@@ -16,118 +15,118 @@
 #define REAL_LANES 2
 #include "stems_fill.h"
 
-#define PAUSE_STEMS 4096 /* effort between two looks at whether the rock is still waited for */
+#define PAUSE_EFFORT 4096 /* effort between two checks for cancellation */
 
 const struct kernel ceduo_kernel_scalar = {NULL, fill_points, make_stools};
 
 /* ---- diameters ---- */
 
-/* A diameter by the gamma law, after Marsaglia and Tsang 2000. `extra` 1: weighted by the diameter itself, as thick
- * stems are met more often. */
+/* Draw a diameter from the gamma distribution, after Marsaglia and Tsang 2000. `extra` 1: weighted by the diameter, because
+ * thick stems are met more often. */
 static double draw_dbh(const struct stems *s, const struct wood_kind *k, uint64_t event, uint64_t kind, int extra)
 {
     double shape = k->shape + extra, scale = k->scale;
-    if (shape < 1) { /* theirs is for 1 and more */
+    if (shape < 1) { /* their method needs shape >= 1 */
         double u = random_pair(s->seed, s->number, event, kind | (uint64_t)UINT32_MAX << 32).u[0] + 0x1p-54;
         scale *= ceduo_pow(u, 1 / shape);
         shape += 1;
     }
     double d = shape - 1.0 / 3, c = 1 / (3 * sqrt(d));
-    for (uint64_t used = 0;; used++) {
-        struct random_pair u = random_pair(s->seed, s->number, event, kind | used << 32);
+    for (uint64_t attempt = 0;; attempt++) {
+        struct random_pair u = random_pair(s->seed, s->number, event, kind | attempt << 32);
         double z = ceduo_normal_quantile(u.u[0] + 0x1p-54), v = 1 + c * z;
         if (!(v > 0))
             continue;
         v = v * v * v;
         if (ceduo_log(u.u[1] + 0x1p-54) < 0.5 * (z * z) + d * (1 - v + ceduo_log(v)))
-            return fmin(d * v * scale, k->most);
+            return fmin(d * v * scale, k->dbh_max);
     }
 }
 
-/* What a stem of this kind, diameter and offset takes of this rock, and how tall it is. */
+/* Set energy and height of a stem, from its kind, diameter and offset. */
 static void set_hit(const struct stems *s, struct stem *stem)
 {
     const struct wood_kind *kind = stem->kind;
     double share = kind->by_eccentricity ? ceduo_dorren_share(ceduo_stem_eccentricity(stem, s->b)) : 1;
-    stem->energy = kind->shape > 0 ? ceduo_stem_energy_hit(&kind->by_hit, stem->dbh, share) : share * kind->whole;
-    stem->height = height_hit(s, kind);
+    stem->energy = kind->shape > 0 ? ceduo_stem_energy_hit(&kind->hit_energy, stem->dbh, share) : share * kind->full_energy;
+    stem->height = get_hit_height(s, kind);
 }
 
 /* ---- stools ---- */
 
-/* Room for `greater_ints` stems behind those that wait. */
-static bool make_room(struct stems *s, struct stems_side *side, size_t more)
+/* Reserve capacity for n more stems in the queue. */
+static bool reserve_queue(struct stems *s, struct stems_side *side, size_t more)
 {
     if (side->first == side->end)
         side->first = side->end = 0;
-    if (side->end + more < side->room)
+    if (side->end + more < side->capacity)
         return true;
     size_t count = side->end - side->first;
     if (count > 0)
-        memmove(side->waiting, side->waiting + side->first, count * sizeof *side->waiting);
+        memmove(side->queue, side->queue + side->first, count * sizeof *side->queue);
     side->first = 0;
     side->end = count;
-    if (2 * (count + more) <= side->room)
+    if (2 * (count + more) <= side->capacity)
         return true;
-    size_t room = 3 * (count + more) + 5; /* for those of lanes, no whole pages */
-    struct stem *waiting = realloc(side->waiting, room * sizeof *waiting);
-    s->no_memory |= !waiting;
-    if (!waiting)
+    size_t capacity = 3 * (count + more) + 5; /* not whole pages, so that queues of lanes do not share cache sets */
+    struct stem *queue = realloc(side->queue, capacity * sizeof *queue);
+    s->no_memory |= !queue;
+    if (!queue)
         return false;
-    side->waiting = waiting;
-    side->room = room;
+    side->queue = queue;
+    side->capacity = capacity;
     return true;
 }
 
-/* Puts a stem among those waiting, for which there is room, in the order they are come to. */
+/* Insert a stem into the queue, sorted by distance. Requires capacity. */
 static inline void insert_stem(struct stems *s, struct stems_side *side, const struct stem *stem)
 {
     size_t end = side->end++, i = end;
-    for (; i > side->first && side->waiting[i - 1].along > stem->along; i--)
-        side->waiting[i] = side->waiting[i - 1];
-    side->waiting[i] = *stem;
-    s->effort += (end - i) / STEPS_OF_A_STEM;
+    for (; i > side->first && side->queue[i - 1].along > stem->along; i--)
+        side->queue[i] = side->queue[i - 1];
+    side->queue[i] = *stem;
+    s->effort += (end - i) / STEPS_PER_STEM;
 }
 
-/* Puts a stem that was drawn for a side among those waiting, for which there is room. One that stands behind the start of the
- * strip ahead belongs to the strip behind, whose own stools and groups begin beyond those that reach over the start. */
-static void let_wait(struct stems *s, int i_side, struct stem *stem)
+/* Queue a stem that was drawn for a side. Requires capacity. A stem behind the start of the strip ahead goes to the queue of
+ * the other side, whose own stools and groups begin beyond those that overlap the start. */
+static void queue_stem(struct stems *s, int i_side, struct stem *stem)
 {
     set_hit(s, stem);
     bool behind = i_side == 0 && stem->along < s->start;
     struct stems_side *to = &s->side[behind ? 1 : i_side];
     stem->along = behind ? -stem->along : stem->along;
     if (!stem->shoot || stem->kind->shape > 0)
-        to->other_to = fmax(to->other_to, stem->along);
-    if (!behind || make_room(s, to, 1))
+        to->unequal_to = fmax(to->unequal_to, stem->along);
+    if (!behind || reserve_queue(s, to, 1))
         insert_stem(s, to, stem);
 }
 
-/* Draws the next places of a stream, of which none are left; the first of them, infinite where there is none. */
+/* Draw the next places of an exhausted stream. Return the first, or infinity. */
 static __attribute__((noinline)) double draw_places(struct stems *s, int i_side, enum stem_stream stream)
 {
-    struct points *p = points_of(&s->side[i_side], stream);
+    struct points *p = get_points(&s->side[i_side], stream);
     if (p->end_belt == s->wood->belts)
         return INFINITY;
     s->kernel->fill(s, i_side, stream);
-    return p->count > 0 ? p->at[0] : INFINITY;
+    return p->count > 0 ? p->along[0] : INFINITY;
 }
 
-/* The next place of a stream, drawn if need be; infinite where there is none. */
+/* Return the next place of a stream, drawn if necessary; infinite if there is none. */
 static inline double next_place(struct stems *s, int i_side, enum stem_stream stream)
 {
-    const struct points *p = points_of(&s->side[i_side], stream);
-    return p->next < p->count ? p->at[p->next] : draw_places(s, i_side, stream);
+    const struct points *p = get_points(&s->side[i_side], stream);
+    return p->next < p->count ? p->along[p->next] : draw_places(s, i_side, stream);
 }
 
-/* Makes a stool whose shoots spread in diameter, or stand on both sides of the release, one by one. */
-static __attribute__((noinline)) void make_other_stool(struct stems *s, int i_side)
+/* Make a stool shoot by shoot: diameters vary, or shoots stand on both sides of the release. */
+static __attribute__((noinline)) void make_uneven_stool(struct stems *s, int i_side)
 {
     struct stool t = next_stool(s, i_side);
     for (unsigned i = 0; i < t.n; i++) {
         struct stem stem = {.shoot = true, .stool = t.event};
         place_shoot(&t, i, &stem.along, &stem.y);
-        if (fabs(stem.y) > (s->b + t.stools->most) / 2)
+        if (fabs(stem.y) > (s->b + t.stools->dbh_max) / 2)
             continue;
         stem.kind = t.stools->kinds;
         if (t.stools->cohorts > 1) {
@@ -141,88 +140,88 @@ static __attribute__((noinline)) void make_other_stool(struct stems *s, int i_si
         stem.dbh = spreads ? draw_dbh(s, stem.kind, t.event, shoot_draw(RANDOM_DBH, i), 0) : stem.kind->dbh;
         if (fabs(stem.y) > (s->b + stem.dbh) / 2)
             continue;
-        let_wait(s, i_side, &stem);
+        queue_stem(s, i_side, &stem);
     }
 }
 
-/* Makes the next stool of a side, and perhaps some of those behind it. */
+/* Make the next stool of a side, and possibly some after it. */
 static void make_stool(struct stems *s, int i_side)
 {
     struct stems_side *side = &s->side[i_side];
     const struct points *p = &side->streams[STREAM_STOOLS];
-    bool others = side->first < side->end && side->other_to >= side->waiting[side->first].along;
-    bool plain = is_plain_stool(s, i_side) && side->end - side->first < STOP_SHOOTS && !others;
-    size_t n = plain ? SHOOTS_AT_ONCE : s->wood->along[i_side][p->belt[p->next]].stools->n + 1;
-    if (!make_room(s, side, n))
+    bool unequal = side->first < side->end && side->unequal_to >= side->queue[side->first].along;
+    bool plain = is_plain_stool(s, i_side) && side->end - side->first < SHOOTS_ENOUGH && !unequal;
+    size_t n = plain ? SHOOTS_MAX : s->wood->sides[i_side][p->belt[p->next]].stools->n + 1;
+    if (!reserve_queue(s, side, n))
         return;
     if (plain)
         s->kernel->make_stools(s, i_side);
     else
-        make_other_stool(s, i_side);
+        make_uneven_stool(s, i_side);
 }
 
-/* The stratum that a place of a merged stream belongs to; *u: uniform in [0, 1) within it. */
-static const struct wood_stratum *stratum_at(struct stems *s, int side, const struct wood_belt *belt, size_t j,
-                                             enum stem_stream stream, double mark, double *u)
+/* Return the stratum of a place in a merged stream; sets *u, uniform in [0, 1) within it. */
+static const struct wood_stratum *pick_stratum(struct stems *s, int side, const struct wood_belt *belt, size_t j,
+                                               enum stem_stream stream, double mark, double *u)
 {
-    double left = mark * rates_in(s, side, j)->rate[stream], rate = 0;
+    double remaining = mark * rates_in(s, side, j)->rate[stream], rate = 0;
     const struct wood_stratum *found = NULL;
     for (size_t k = 0; k < belt->strata_count; k++) {
         const struct wood_stratum *stratum = &belt->strata[k];
-        if (stream_of(stratum) != stream)
+        if (get_stream(stratum) != stream)
             continue;
         found = stratum;
-        rate = stratum->still + stratum->per_b * s->b;
-        if (left < rate)
+        rate = stratum->base_rate + stratum->rate_per_b * s->b;
+        if (remaining < rate)
             break;
-        left -= rate;
+        remaining -= rate;
     }
-    s->effort += belt->strata_count / STEPS_OF_A_STEM;
-    *u = left / rate;
+    s->effort += belt->strata_count / STEPS_PER_STEM;
+    *u = remaining / rate;
     return found;
 }
 
 /* ---- groups of trees ---- */
 
-/* Makes the next group of a side; each of its trees is one by itself. */
+/* Make the next group of a side. Its trees are independent. */
 static __attribute__((noinline)) void make_group(struct stems *s, int i_side)
 {
-    struct points *p = points_of(&s->side[i_side], STREAM_GROUPS);
+    struct points *p = get_points(&s->side[i_side], STREAM_GROUPS);
     unsigned k = p->next;
-    uint64_t event = event_of(p, STREAM_GROUPS, i_side, k);
+    uint64_t event = get_event(p, STREAM_GROUPS, i_side, k);
     double u;
-    const struct wood_belt *belt = &s->wood->along[i_side][p->belt[k]];
-    const struct wood_stratum *t = stratum_at(s, i_side, belt, p->belt[k], STREAM_GROUPS, p->mark[k], &u);
-    if (!make_room(s, &s->side[i_side], t->group))
+    const struct wood_belt *belt = &s->wood->sides[i_side][p->belt[k]];
+    const struct wood_stratum *t = pick_stratum(s, i_side, belt, p->belt[k], STREAM_GROUPS, p->mark[k], &u);
+    if (!reserve_queue(s, &s->side[i_side], t->group))
         return;
     p->next++;
     s->drawn += t->group;
     s->effort += 1 + t->group;
-    double centre = p->offset[k] * (2 * t->radius + t->kind->most + s->b);
+    double centre = p->offset[k] * (2 * t->radius + t->kind->dbh_max + s->b);
     for (unsigned i = 0; i < t->group; i++) {
         struct stem stem = {.kind = t->kind, .stool = event | (uint64_t)(i + 1) << 44};
         struct random_pair draw = random_pair(s->seed, s->number, event, shoot_draw(RANDOM_GROUP, i));
-        double angle = 2 * M_PI * (draw.u[1] - 0.5), off = t->radius * sqrt(draw.u[0]), sine, cosine;
+        double angle = 2 * M_PI * (draw.u[1] - 0.5), distance = t->radius * sqrt(draw.u[0]), sine, cosine;
         elementary_sincos(&angle, &sine, &cosine);
-        stem.along = p->at[k] + off * cosine;
-        stem.y = centre + off * sine;
-        /* beyond the end of its belt it stands as far before it instead, so that the belt is as dense there as elsewhere */
+        stem.along = p->along[k] + distance * cosine;
+        stem.y = centre + distance * sine;
+        /* reflect at the ends of the belt, so that the density is uniform */
         if (!(stem.along >= belt->from && stem.along <= belt->to)) {
             double span = belt->to - belt->from, past = fabs(fmod(stem.along - belt->from, 2 * span));
             stem.along = belt->from + (past <= span ? past : 2 * span - past);
         }
-        if (fabs(stem.y) > (s->b + t->kind->most) / 2)
+        if (fabs(stem.y) > (s->b + t->kind->dbh_max) / 2)
             continue;
         bool spreads = t->kind->shape > 0;
         stem.dbh = spreads ? draw_dbh(s, t->kind, event, shoot_draw(RANDOM_DBH, i), 0) : t->kind->dbh;
         if (fabs(stem.y) <= (s->b + stem.dbh) / 2)
-            let_wait(s, i_side, &stem);
+            queue_stem(s, i_side, &stem);
     }
 }
 
 /* ---- single trees ---- */
 
-/* Makes the next single tree of a side. */
+/* Make the next single tree of a side. */
 static void make_single(struct stems *s, int i_side)
 {
     struct stems_side *side = &s->side[i_side];
@@ -231,31 +230,31 @@ static void make_single(struct stems *s, int i_side)
     if (!(side->single.along < INFINITY))
         return;
     unsigned k = p->next;
-    uint64_t event = event_of(p, STREAM_SINGLE, i_side, k);
+    uint64_t event = get_event(p, STREAM_SINGLE, i_side, k);
     double u;
-    const struct wood_belt *belt = &s->wood->along[i_side][p->belt[k]];
-    const struct wood_kind *kind = stratum_at(s, i_side, belt, p->belt[k], STREAM_SINGLE, p->mark[k], &u)->kind;
+    const struct wood_belt *belt = &s->wood->sides[i_side][p->belt[k]];
+    const struct wood_kind *kind = pick_stratum(s, i_side, belt, p->belt[k], STREAM_SINGLE, p->mark[k], &u)->kind;
     double d = kind->dbh;
-    if (kind->shape > 0) /* met with a chance that goes with b + d */
+    if (kind->shape > 0) /* probability of an encounter is proportional to b + d */
         d = draw_dbh(s, kind, event, RANDOM_DBH, u * (s->b + d) >= s->b);
-    side->single = (struct stem){.along = p->at[k], .y = p->offset[k] * (s->b + d), .dbh = d, .kind = kind, .stool = event};
+    side->single = (struct stem){.along = p->along[k], .y = p->offset[k] * (s->b + d), .dbh = d, .kind = kind, .stool = event};
     set_hit(s, &side->single);
     p->next++;
 }
 
-/* ---- what comes next ---- */
+/* ---- next stem ---- */
 
-/* Whether it is time to let the caller look up. */
-static bool pauses(const struct stems *s)
+/* True if drawing must pause: check for cancellation, or a limit. */
+static bool must_pause(const struct stems *s)
 {
     return s->no_memory || s->effort >= s->pause || ceduo_stems_too_many(s);
 }
 
-/* Makes the stools or groups that have a centre up to `to` along a side; false where it stopped before. */
-static bool make_to(struct stems *s, int side, enum stem_stream stream, double to)
+/* Make the stools or groups with a centre up to `to` along a side. False if it paused before. */
+static bool make_up_to(struct stems *s, int side, enum stem_stream stream, double to)
 {
-    for (double at; (at = next_place(s, side, stream)) <= to && at < INFINITY;) { /* untaken: rounding */
-        if (pauses(s))
+    for (double along; (along = next_place(s, side, stream)) <= to && along < INFINITY;) { /* untaken: rounding */
+        if (must_pause(s))
             return false;
         if (stream == STREAM_GROUPS)
             make_group(s, side);
@@ -270,21 +269,21 @@ static void find_next(struct stems *s, int i)
     struct stems_side *side = &s->side[i];
     for (;;) {
         bool any = side->first < side->end, group = false;
-        double waits = any ? side->waiting[side->first].along : INFINITY, single = side->single.along;
-        side->next_waits = any && waits <= single;
-        side->next = side->next_waits ? waits : single;
+        double queued = any ? side->queue[side->first].along : INFINITY, single = side->single.along;
+        side->next_queued = any && queued <= single;
+        side->next = side->next_queued ? queued : single;
         side->next_known = true;
-        /* where stems may stand that are not drawn yet: of the next stool, or group */
+        /* minimum place of stems that are not drawn yet, of the next stool or group */
         double reach = next_place(s, i, STREAM_STOOLS) - s->wood->reach;
         if (s->wood->grouped) {
             double groups = next_place(s, i, STREAM_GROUPS) - s->wood->group_reach;
             group = groups < reach;
             reach = group ? groups : reach;
         }
-        side->sure = reach < single ? reach : single;
+        side->certain_to = reach < single ? reach : single;
         if (!(reach <= side->next) || reach == INFINITY)
             return;
-        if (pauses(s)) {
+        if (must_pause(s)) {
             side->next = reach;
             side->next_known = false;
             return;
@@ -296,20 +295,20 @@ static void find_next(struct stems *s, int i)
     }
 }
 
-/* Singles are drawn from `from` on, stools and groups from so far before it as they reach (`by` +1), or behind it. */
-static void start_side(struct stems *s, int i, double from, double by)
+/* Restart a side: singles from `from` on, stools and groups from their reach before it (`by` 1) or after it (`by` -1). */
+static void reset_side(struct stems *s, int i, double from, double by)
 {
     struct stems_side *side = &s->side[i];
-    const double begin[STREAMS] = {[STREAM_STOOLS] = from - by * s->wood->reach,
-                                   [STREAM_SINGLE] = from,
-                                   [STREAM_GROUPS] = from - by * s->wood->group_reach};
+    const double starts[STREAMS] = {[STREAM_STOOLS] = from - by * s->wood->reach,
+                                    [STREAM_SINGLE] = from,
+                                    [STREAM_GROUPS] = from - by * s->wood->group_reach};
     for (int k = 0; k < STREAMS; k++) {
-        struct points *p = points_of(side, (enum stem_stream)k);
+        struct points *p = get_points(side, (enum stem_stream)k);
         if (!p)
             continue;
         p->next = p->count = 0;
         p->drawn = 0;
-        p->end = begin[k];
+        p->end = starts[k];
         p->end_belt = 0;
     }
     make_single(s, i);
@@ -323,15 +322,15 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     s->start = x;
     s->behind_ready = false;
     s->drawn = s->effort = 0;
-    s->pause = PAUSE_STEMS;
+    s->pause = PAUSE_EFFORT;
     for (int i = 0; i < 2; i++) {
         s->side[i].first = s->side[i].end = 0;
-        s->side[i].other_to = -INFINITY;
+        s->side[i].unequal_to = -INFINITY;
     }
-    memset(s->met, 0, (s->wood->places + 1) * sizeof *s->met);
-    start_side(s, 0, x, 1);
+    memset(s->hit_stools, 0, (s->wood->met_mask + 1) * sizeof *s->hit_stools);
+    reset_side(s, 0, x, 1);
     find_next(s, 0);
-    bool any = s->wood->along[0][0].from < x + fmax(s->wood->reach, s->wood->group_reach);
+    bool any = s->wood->sides[0][0].from < x + fmax(s->wood->reach, s->wood->group_reach);
     s->side[1].next = any ? -x : INFINITY;
     s->side[1].next_known = false;
 }
@@ -339,21 +338,21 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
 void ceduo_stems_advance(struct stems *s, int i)
 {
     struct stems_side *side = &s->side[i];
-    s->pause = s->effort + PAUSE_STEMS;
+    s->pause = s->effort + PAUSE_EFFORT;
     if (i == 1 && !s->behind_ready) {
-        /* The strip behind the release is drawn only when a rock goes there. The stools and groups around the release are
-         * those of the strip ahead. */
-        if (!make_to(s, 0, STREAM_STOOLS, s->start + s->wood->reach))
+        /* The strip behind the release is drawn only when a rock enters it. The stools and groups around the release belong to
+         * the strip ahead. */
+        if (!make_up_to(s, 0, STREAM_STOOLS, s->start + s->wood->reach))
             return;
-        if (s->wood->grouped && !make_to(s, 0, STREAM_GROUPS, s->start + s->wood->group_reach))
+        if (s->wood->grouped && !make_up_to(s, 0, STREAM_GROUPS, s->start + s->wood->group_reach))
             return;
         s->behind_ready = true;
         find_next(s, 0);
-        start_side(s, 1, -s->start, -1);
+        reset_side(s, 1, -s->start, -1);
         find_next(s, 1);
         return;
     }
-    if (side->next_known && side->next_waits) {
+    if (side->next_known && side->next_queued) {
         side->first++;
     } else if (side->next_known) {
         s->drawn++;
@@ -363,11 +362,11 @@ void ceduo_stems_advance(struct stems *s, int i)
     find_next(s, i);
 }
 
-void ceduo_stems_next_hit_behind(struct stems *s, uint64_t stool)
+void ceduo_stems_mark_hit_behind(struct stems *s, uint64_t stool)
 {
     const struct stems_side *behind = &s->side[1];
     for (size_t i = behind->first; i < behind->end; i++)
-        behind->waiting[i].met |= behind->waiting[i].stool == stool;
+        behind->queue[i].stool_hit |= behind->queue[i].stool == stool;
 }
 
 /* ---- making and freeing ---- */
@@ -380,15 +379,15 @@ bool ceduo_stems_init(struct stems *stems, const struct wood *wood, enum ceduo_k
     for (int i = 0; i < 2; i++) {
         struct stems_side *side = &stems->side[i];
         side->streams[STREAM_STOOLS].size = POINTS;
-        side->streams[STREAM_SINGLE].size = POINTS_FEW;
+        side->streams[STREAM_SINGLE].size = POINTS_SPARSE;
         side->groups = wood->grouped ? calloc(1, sizeof *side->groups) : NULL;
         good &= !wood->grouped || side->groups;
         if (side->groups)
-            side->groups->size = POINTS_FEW;
+            side->groups->size = POINTS_SPARSE;
     }
-    stems->met = calloc(wood->places + 1, sizeof *stems->met);
+    stems->hit_stools = calloc(wood->met_mask + 1, sizeof *stems->hit_stools);
     stems->rates = calloc(wood->belts + 1, sizeof *stems->rates);
-    if (good && stems->met && stems->rates)
+    if (good && stems->hit_stools && stems->rates)
         return true;
     ceduo_stems_release(stems);
     return false;
@@ -397,10 +396,10 @@ bool ceduo_stems_init(struct stems *stems, const struct wood *wood, enum ceduo_k
 void ceduo_stems_release(struct stems *stems)
 {
     for (int i = 0; i < 2; i++) {
-        free(stems->side[i].waiting);
+        free(stems->side[i].queue);
         free(stems->side[i].groups);
     }
-    free(stems->met);
+    free(stems->hit_stools);
     free(stems->rates);
     *stems = (struct stems){0};
 }

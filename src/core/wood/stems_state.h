@@ -7,73 +7,73 @@
 
 #include "wood.h"
 
-/* What stems.c keeps of the stems in one rock's path, for it and for stems_fill.h. */
+/* State of the stems in the path of one rock, for stems.c and stems_fill.h. */
 
 struct stem {
     double along;   /* m: place along the strip */
-    double energy;  /* J that it takes of a rock as large as this one that has as much */
+    double energy;  /* J that it takes from this rock, if the rock has as much */
     double height;  /* m, of its kind */
-    uint64_t stool; /* which stool or tree it is, or belongs to; the last bit is the side that it was drawn for */
+    uint64_t stool; /* number of the stool or tree; the lowest bit is the side of drawing */
     const struct wood_kind *kind;
-    double y;   /* m: offset from the middle of the strip */
-    double dbh; /* m; NaN where contacts have no diameter */
+    double y;   /* m: offset from the centre line of the strip */
+    double dbh; /* m; NaN: a log */
     bool shoot;
-    bool met; /* it waits behind the release, and another shoot of its stool was hit ahead */
+    bool stool_hit; /* queued behind the release, and another shoot of its stool was hit ahead */
 };
 
-/* Streams of places along a side: of stools, of all that stands by itself, and of groups of trees where there are any. */
+/* Streams of places along a side: stools; single trees, stumps and logs; groups of trees, if any. */
 enum stem_stream { STREAM_STOOLS, STREAM_SINGLE, STREAM_GROUPS, STREAMS };
 
-/* The next places of a stream, which are drawn many at a time. */
-#define POINTS         16
-#define POINTS_ROOM    (POINTS + 8) /* they may be read some at once from any of them on */
-#define POINTS_FEW     8            /* of trees among stools */
-#define COHORT_GROUPS  4            /* of four shoots: cohorts of so many are drawn together */
-#define SHOOTS_AT_ONCE 64           /* so many are put in order at once, more than STOP_SHOOTS and those of a last stool */
-#define STOP_SHOOTS    24
-#define SHOOTS_FEW     (SHOOTS_AT_ONCE - STOP_SHOOTS)
+/* The next places of a stream, drawn many at a time. */
+#define POINTS           16
+#define POINTS_CAPACITY  (POINTS + 8) /* whole registers are read from any place on */
+#define POINTS_SPARSE    8            /* of singles and groups */
+#define COHORT_GROUPS    4            /* groups of four shoots with cohorts drawn together */
+#define SHOOTS_MAX       64           /* sorted at once; more than SHOOTS_ENOUGH plus the shoots of a last stool */
+#define SHOOTS_ENOUGH    24
+#define PLAIN_SHOOTS_MAX (SHOOTS_MAX - SHOOTS_ENOUGH)
 struct points {
-    double at[POINTS_ROOM];     /* m along the strip */
-    double offset[POINTS_ROOM]; /* uniform in (-1/2, 1/2): how far from the middle of the strip */
-    double mark[POINTS_ROOM];   /* uniform in (0, 1): which of those that the stream is made of */
-    double turn[POINTS_ROOM];   /* likewise in (-1/2, 1/2) */
-    /* of a stool: its middle from that of the strip, and the first place of its ring from there */
-    double centre[POINTS_ROOM], sine[POINTS_ROOM], cosine[POINTS_ROOM]; /* m */
-    uint64_t more[POINTS_ROOM];                                         /* 1: it has one shoot more than others */
-    uint64_t cohorts[COHORT_GROUPS][2][POINTS_ROOM];                    /* of the first shoots of a stool */
+    double along[POINTS_CAPACITY];  /* m along the strip */
+    double offset[POINTS_CAPACITY]; /* uniform in (-1/2, 1/2): offset from the centre line, in widths */
+    double mark[POINTS_CAPACITY];   /* uniform in (0, 1): selects the stratum */
+    double turn[POINTS_CAPACITY];   /* uniform in (-1/2, 1/2): rotation of the ring */
+    /* of a stool: offset of its centre from the centre line, and first point of its ring from its centre */
+    double centre[POINTS_CAPACITY], sine[POINTS_CAPACITY], cosine[POINTS_CAPACITY]; /* m */
+    uint64_t extra[POINTS_CAPACITY];                                                /* 1: one extra shoot */
+    uint64_t cohorts[COHORT_GROUPS][2][POINTS_CAPACITY];                            /* random bits of the first shoots */
     size_t belt[POINTS];
-    unsigned next, count; /* of `size`, fewer only where the forest ends */
+    unsigned next, count; /* count is `size`, or fewer at the end of the forest */
     unsigned size;
-    uint64_t drawn; /* of the whole stream */
-    double end;     /* m: where drawing goes on */
+    uint64_t drawn; /* places drawn in the whole stream */
+    double end;     /* m: where drawing continues */
     size_t end_belt;
 };
 
 struct stems_side {
     struct points streams[STREAM_GROUPS];
-    struct points *groups; /* the third stream; NULL: there are none */
-    double other_to;       /* m along the strip: behind that none waits but shoots as thick as all of their kind */
-    struct stem single;    /* the next of its stream; `along` infinite: none */
-    /* shoots of drawn stools, and trees of drawn groups, that the rock can hit, from `first` to before `end`, the nearest first; room
+    struct points *groups; /* the third stream; NULL: no groups */
+    double unequal_to;     /* m along the strip: beyond, the queue has only shoots of equal diameter per kind */
+    struct stem single;    /* next single tree; `along` infinite: none */
+    /* shoots of drawn stools and trees of drawn groups that the rock can hit, from `first` to before `end`, sorted; capacity
      * for one more */
-    struct stem *waiting;
-    size_t first, end, room;
-    double sure;     /* m along the strip: a waiting stem before that is next if it is the first of them */
-    double next;     /* m along the strip: no stem before */
-    bool next_known; /* a stem stands there; otherwise stools or groups up to there have not been drawn yet */
-    bool next_waits; /* it is one of those waiting; otherwise `single` */
+    struct stem *queue;
+    size_t first, end, capacity;
+    double certain_to; /* m along the strip: the first queued stem is next if it is before */
+    double next;       /* m along the strip: no stem stands before */
+    bool next_known;   /* a stem stands at `next`; false: stools or groups up to `next` are not drawn yet */
+    bool next_queued;  /* it is queued; false: it is `single` */
 };
 
-/* A stool that a stream has come to: where it stands, and its ring. */
+/* The next stool of a stream: its place, and its ring. */
 struct stool {
-    double at, centre, sine, cosine;
+    double along, centre, sine, cosine;
     const struct wood_stools *stools;
-    const double *ring, *sines; /* of its ring */
+    const double *ring, *sines; /* cosines and sines of the ring */
     unsigned n;
     uint64_t event;
 };
 
-/* Places of a belt for a rock of diameter b: so many per metre, and its inverse. */
+/* Rate of places in a belt for a rock of diameter b, 1/m, and its inverse. */
 struct belt_rates {
     double b, rate[STREAMS], metres[STREAMS];
 };
@@ -82,33 +82,34 @@ struct stems {
     const struct wood *wood;
     const struct kernel *kernel; /* core/wood/kernel.h */
     uint64_t seed, number;       /* of the rock */
-    double b;                    /* its mean diameter, m */
-    double start;                /* x of its release */
-    struct belt_rates *rates;    /* of the belts of wood->along[0] */
+    double b;                    /* m: mean diameter of the rock */
+    double start;                /* x of the release */
+    struct belt_rates *rates;    /* of the belts of wood->sides[0] */
     struct stems_side side[2];
     bool behind_ready;
-    uint64_t *met;   /* stools that were hit, each at the place of its number's last bits: those that the way is among
-                            * at a time are far fewer than the places */
-    bool no_memory;  /* the trajectory is not to be used */
-    uint64_t drawn;  /* stems drawn */
-    uint64_t effort; /* the same, and what is done to keep them in order, in units of one stem */
-    char apart[320]; /* of those of other lanes: whole pages would put all on a few lines of the cache */
-    uint64_t pause;  /* effort at which the drawing stops for a moment: the rock may be waited for no longer */
+    /* hash table of hit stools, by the lowest bits of their numbers; it is much larger than the number of stools in reach */
+    uint64_t *hit_stools;
+    bool no_memory;          /* the trajectory is invalid */
+    uint64_t drawn;          /* stems drawn */
+    uint64_t effort;         /* work in stems: drawn stems, and steps of sorting */
+    char cache_padding[320]; /* so that the structs of different lanes do not share cache sets */
+    uint64_t pause;          /* effort at which drawing pauses, to check for cancellation */
 };
 
-/* So high a stem can be hit by this rock: up to its top, or to where its underside is when its centre is too high. */
-static inline double height_hit(const struct stems *s, const struct wood_kind *kind)
+/* Return the maximum clearance of a rock that hits a stem of this kind: the height of the stem, or the clearance at which the
+ * rock's centre is at hit_below. */
+static inline double get_hit_height(const struct stems *s, const struct wood_kind *kind)
 {
     double below = kind->below - 0.5 * s->b;
     return kind->height < below ? kind->height : below;
 }
 
-static inline struct points *points_of(struct stems_side *side, enum stem_stream stream)
+static inline struct points *get_points(struct stems_side *side, enum stem_stream stream)
 {
     return stream == STREAM_GROUPS ? side->groups : &side->streams[stream];
 }
 
-static inline enum stem_stream stream_of(const struct wood_stratum *stratum)
+static inline enum stem_stream get_stream(const struct wood_stratum *stratum)
 {
     return !stratum->kind ? STREAM_STOOLS : stratum->group > 0 ? STREAM_GROUPS : STREAM_SINGLE;
 }
