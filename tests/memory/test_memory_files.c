@@ -57,7 +57,7 @@ static const char kinds[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: pro
                             "observed: {speed: [{x_m: 30, values: [4, 5]}, {x_m: 40, mean: 3, sd: 1, n: 4}], scars: {from_m: "
                             "2, to_m: 9, height_m: [1]}}\n";
 
-static const char uncertain[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
+static const char uncertain_scene[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
                                 "blocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}\n"
                                 "rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: [acer]}]}\n"
                                 "options:\n  - name: wood\n    forest: [{from_m: 10, to_m: 30, stand: uncertain.yaml}, "
@@ -98,7 +98,7 @@ static int set_up(void **state)
     put("seen.yaml", seen);
     put("upward.yaml", upward);
     put("kinds.yaml", kinds);
-    put("uncertain_scene.yaml", uncertain);
+    put("uncertain_scene.yaml", uncertain_scene);
     put("uncertain.yaml", uncertain);
     put("survey.csv", survey);
     put("stops.csv", "block,x_m\n1,40\n2,50\n1,60\n");

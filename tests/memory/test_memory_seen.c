@@ -238,7 +238,7 @@ static void fail_to_grow(void)
 
 static bool fit_that_cannot_grow(void)
 {
-    return is_done(fit_of_one_round(1, 1, fail_to_grow, CEDUO_SEARCH, 256));
+    return is_done(run_short_fit(1, 1, fail_to_grow, CEDUO_SEARCH, 256));
 }
 
 /* The chains cannot store their trials or train the surrogate. */

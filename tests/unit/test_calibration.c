@@ -43,7 +43,7 @@ static struct ceduo_observation all_pass(void)
 
 static unsigned threads = 1;
 
-static struct ceduo_calibration fit_of(const struct ceduo_scene *scene, const struct ceduo_observation *seen, size_t n,
+static struct ceduo_calibration run_fit(const struct ceduo_scene *scene, const struct ceduo_observation *seen, size_t n,
                                        uint64_t rocks)
 {
     const struct ceduo_calibration_scene of = {scene, &input, n, seen};
@@ -59,7 +59,7 @@ static struct ceduo_fitted fit_observation(double mean, double sd)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(mean, sd);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2);
     struct ceduo_fitted p = a.parameters[0];
     return p;
 }
@@ -87,7 +87,7 @@ TEST(a_normal_law_is_found)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(14, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2);
     const struct ceduo_fitted *p = &a.parameters[0];
     EXPECT_NEAR(p->best, 14, 0.02);
     EXPECT_NEAR(p->p2_5, 14 - 1.96, 4 * 0.19);
@@ -126,9 +126,9 @@ TEST(threads_change_nothing)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(14, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration one = fit_of(&scene, &seen, 1, 2);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration one = run_fit(&scene, &seen, 1, 2);
     threads = CEDUO_CALIBRATION_CHAINS + 1;
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration many = fit_of(&scene, &seen, 1, 2);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration many = run_fit(&scene, &seen, 1, 2);
     threads = 1;
     EXPECT(many.draws_count, ==, one.draws_count);
     assert_memory_equal(many.draws, one.draws, one.draws_count * sizeof *one.draws);
@@ -140,7 +140,7 @@ TEST(without_information_the_law_stays_uniform)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = all_pass();
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2);
     const struct ceduo_fitted *p = &a.parameters[0];
     double sum = 0, squares = 0, n = (double)a.draws_count;
     for (size_t i = 0; i < a.draws_count; i++) {
@@ -160,7 +160,7 @@ TEST(chains_stay_within_their_bounds)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(25, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2);
     EXPECT(a.parameters[0].best, >, HI - 0.01);
     EXPECT(a.parameters[0].best, <=, HI);
     for (size_t i = 0; i < a.draws_count; i++)
@@ -217,7 +217,7 @@ TEST(one_misfit_is_enough)
             struct ceduo_observation seen[3] = {all_pass(), all_pass(), all_pass()};
             seen[first] = speed(30, 1);
             seen[first].use = check ? CEDUO_OBSERVED_CHECK : CEDUO_OBSERVED_FIT;
-            LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, seen, 3, 2);
+            LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, seen, 3, 2);
             EXPECT(a.predicted[first].p_value, <, 0.001);
             EXPECT(a.predicted[2].p_value, >, 0.5);
             EXPECT(a.misfit, ==, !check);
@@ -237,7 +237,7 @@ TEST(prediction_uses_other_rocks_than_the_fit)
     LOCAL(ceduo_observer, observer);
     EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_simulate(observer, &scene, 50, NULL, &own), ==, CEDUO_OK);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 50);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 50);
     const struct ceduo_observation_fit *at_best = &a.predicted[0].at_best;
     EXPECT(at_best->mean, !=, own.mean);
     EXPECT_NEAR(at_best->mean, own.mean, 5 * hypot(at_best->sd, own.sd) / sqrt(50));
@@ -248,11 +248,11 @@ TEST(few_single_values_give_no_range)
 {
     struct ceduo_scene scene = flight(0);
     struct ceduo_observation seen[2] = {all_pass(), speed(15, 1)};
-    struct ceduo_calibration a = fit_of(&scene, seen, 2, 2);
+    struct ceduo_calibration a = run_fit(&scene, seen, 2, 2);
     assert_true(a.predicted[1].one_lo < 15 && a.predicted[1].one_hi > 15);
     ceduo_calibration_free(&a);
     seen[1].use = CEDUO_OBSERVED_CHECK; /* one rock has no spread to fit by */
-    a = fit_of(&scene, seen, 2, 1);
+    a = run_fit(&scene, seen, 2, 1);
     assert_true(isnan(a.predicted[1].one_lo) && isnan(a.predicted[1].one_hi));
     ceduo_calibration_free(&a);
 }
