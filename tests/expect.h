@@ -53,10 +53,10 @@ static inline struct shown shown_unsigned(unsigned long long value)
     } while (0)
 
 /* |left - right| <= most; false if either is NaN. */
-#define EXPECT_NEAR(left, right, most)                                                                                         \
+#define EXPECT_NEAR(left, right, max)                                                                                          \
     do {                                                                                                                       \
-        if (!(fabs((left) - (right)) <= (most)))                                                                               \
-            fail_msg("%s is %s, wanted %s, which is %s, within %s", #left, SHOWN(left), #right, SHOWN(right), SHOWN(most));    \
+        if (!(fabs((left) - (right)) <= (max)))                                                                                \
+            fail_msg("%s is %s, wanted %s, which is %s, within %s", #left, SHOWN(left), #right, SHOWN(right), SHOWN(max));     \
     } while (0)
 
 /* |value - expected| <= relative |expected| */

@@ -14,7 +14,7 @@
 #define VALUES 3
 #define CUT    250
 
-static void fit_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint64_t rocks)
+static void fit_site(size_t number, enum ceduo_law made_by, uint64_t observed, uint64_t rocks)
 {
     struct ceduo_calibration a;
     double truth[QUARRY_VALUES_MAX], start = processor_s();
@@ -22,13 +22,13 @@ static void fit_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint6
                                  .values = VALUES,
                                  .kinds = QUARRY_KINDS,
                                  .made_by = made_by,
-                                 .seen = seen,
+                                 .seen = observed,
                                  .rocks = rocks,
                                  .steps_most = made_by == CEDUO_LAW_LUMPED ? 0 : CUT};
     if (!quarry_try(&trial, truth, &a))
         return;
     printf("%zu,%s,%llu,%llu,%llu,%.1f,%d,%.0f", number, made_by == CEDUO_LAW_LUMPED ? "lumped" : "crsp",
-           (unsigned long long)seen, (unsigned long long)rocks, (unsigned long long)a.evaluations, processor_s() - start,
+           (unsigned long long)observed, (unsigned long long)rocks, (unsigned long long)a.evaluations, processor_s() - start,
            a.settled, a.effective_size);
     printf(",%d,%.4f,%.4f,%.4f", a.misfit, a.predicted[0].p_value, a.predicted[1].p_value, a.predicted[2].p_value);
     for (size_t i = 0; i < VALUES; i++)

@@ -118,11 +118,11 @@ struct found {
     struct ceduo_moments value;
 };
 
-static void note(struct found *f, const struct figure *seen, double truth)
+static void note(struct found *f, const struct figure *result, double truth)
 {
-    f->held += seen->lo <= truth && truth <= seen->hi;
-    f->width += (seen->hi - seen->lo) / 2;
-    ceduo_moments_add(&f->value, seen->value);
+    f->held += result->lo <= truth && truth <= result->hi;
+    f->width += (result->hi - result->lo) / 2;
+    ceduo_moments_add(&f->value, result->value);
 }
 
 static bool print(int k, const struct found *f, double truth, uint64_t rocks)

@@ -85,14 +85,14 @@ static void print_row(const char *what, const char *numbers, uint64_t rocks, con
     fflush(stdout);
 }
 
-static void measure_core(const char *what, bool stems, size_t asked, uint64_t most)
+static void measure_core(const char *what, bool stems, size_t asked, uint64_t max)
 {
     struct paper_site site;
     paper_site_init(&site);
     site.control.accepted = ACCEPTED;
     double truth[QUANTITIES], true_se[QUANTITIES];
     run_core(&site, stems, stems ? TRUE_ROCKS_STEMS : TRUE_ROCKS, 1u << 20, truth, true_se);
-    for (uint64_t rocks = 100; rocks <= most; rocks *= 10) {
+    for (uint64_t rocks = 100; rocks <= max; rocks *= 10) {
         struct row row = {.repeats = choose_repeats(asked, rocks)};
         for (size_t i = 0; i < row.repeats; i++) {
             double value[QUANTITIES], se[QUANTITIES];

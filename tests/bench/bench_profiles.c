@@ -37,8 +37,8 @@ static void move_vertices(struct ceduo_slope *s)
 {
     struct line_random r = {.state = 1};
     for (size_t i = 1; i + 1 < s->vertices; i++) {
-        double room = fmin(MOVED, 0.4 * (s->x[i + 1] - s->x[i]));
-        double x = s->x[i] + room * line_uniform(&r, -1, 1);
+        double limit = fmin(MOVED, 0.4 * (s->x[i + 1] - s->x[i]));
+        double x = s->x[i] + limit * line_uniform(&r, -1, 1);
         s->x[i] = x > s->x[i - 1] ? x : s->x[i];
         s->z[i] += MOVED * line_uniform(&r, -1, 1);
     }

@@ -76,14 +76,14 @@ static double error(const struct sums *s)
 
 static void compare(const char *name, const struct paper_site *site, const char *mode_name, int mode, uint64_t rocks)
 {
-    double *apart[MARKS], mass;
+    double *distance[MARKS], mass;
     size_t many[MARKS] = {0};
     uint64_t ends_apart = 0;
     struct sums speed[2] = {0}, energy[2] = {0};
     struct ceduo_tracer *f = ceduo_tracer_create(&site->scene, NULL);
     static struct track t[2];
     for (size_t i = 0; i < MARKS; i++)
-        if (!(apart[i] = malloc(rocks * sizeof(double))))
+        if (!(distance[i] = malloc(rocks * sizeof(double))))
             fail("no memory");
     if (!f)
         fail("no memory");
@@ -99,14 +99,14 @@ static void compare(const char *name, const struct paper_site *site, const char 
         }
         for (size_t i = 0; i < MARKS; i++)
             if (t[0].contacts >= marks[i] && t[1].contacts >= marks[i])
-                apart[i][many[i]++] = hypot(t[0].x[marks[i]] - t[1].x[marks[i]], t[0].z[marks[i]] - t[1].z[marks[i]]);
+                distance[i][many[i]++] = hypot(t[0].x[marks[i]] - t[1].x[marks[i]], t[0].z[marks[i]] - t[1].z[marks[i]]);
         ends_apart += hypot(t[0].way.x - t[1].way.x, t[0].way.z - t[1].way.z) > 1e-3;
     }
     printf("%s,%s,%" PRIu64, name, mode_name, rocks);
     for (size_t i = 0; i < MARKS; i++) {
-        qsort(apart[i], many[i], sizeof(double), by_value);
-        printf(",%.1e", many[i] > 0 ? apart[i][many[i] / 2] : NAN);
-        free(apart[i]);
+        qsort(distance[i], many[i], sizeof(double), by_value);
+        printf(",%.1e", many[i] > 0 ? distance[i][many[i] / 2] : NAN);
+        free(distance[i]);
     }
     printf(",%.4f,%.4f,%+.3f,%.3f,%+.3f\n", (double)ends_apart / (double)rocks, mean(&speed[0]),
            (mean(&speed[1]) - mean(&speed[0])) / error(&speed[0]), mean(&energy[0]),

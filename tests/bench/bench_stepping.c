@@ -128,7 +128,7 @@ static double step_gsl(const struct ground *g, const struct launch *l, double to
 static void measure(const struct ground *g, const struct launch *launches, size_t n, const char *what, double step,
                     double (*contact)(const struct ground *, const struct launch *, double))
 {
-    double sum2 = 0, most = 0, start = processor_s();
+    double sum2 = 0, max = 0, start = processor_s();
     size_t missed = 0, close = 0;
     for (size_t i = 0; i < n; i++) {
         double off = fabs(contact(g, &launches[i], step) - launches[i].x);
@@ -138,11 +138,10 @@ static void measure(const struct ground *g, const struct launch *launches, size_
         }
         close++;
         sum2 += off * off;
-        most = fmax(most, off);
+        max = fmax(max, off);
     }
     double seconds = processor_s() - start;
-    printf("%s,%g,%zu,%.3g,%.3g,%.3g,%zu\n", what, step, n, seconds / (double)n * 1e9, sqrt(sum2 / (double)close), most,
-           missed);
+    printf("%s,%g,%zu,%.3g,%.3g,%.3g,%zu\n", what, step, n, seconds / (double)n * 1e9, sqrt(sum2 / (double)close), max, missed);
     fflush(stdout);
 }
 

@@ -30,7 +30,7 @@ static const double lowest[VALUES] = {0.02, 0, 0.1, 0}, highest[VALUES] = {0.95,
 struct site {
     struct scene_file file;
     struct ceduo_observer *observer;
-    const struct ceduo_observation *seen;
+    const struct ceduo_observation *observed;
     double band[BLOCKS];
     uint64_t rocks;
     double lo[VALUES], hi[VALUES];
@@ -65,7 +65,7 @@ static void evaluate(struct site *site, struct fit *f, size_t from, size_t to, u
         size_t n;
         if (ceduo_observer_values(site->observer, &site->file.scene, b, rocks, &values, &n) != CEDUO_OK)
             fail("the run failed");
-        f->distance[b] = stops_distance(&site->seen[b], values, n, &f->mean[b]);
+        f->distance[b] = stops_distance(&site->observed[b], values, n, &f->mean[b]);
         if (isnan(f->distance[b]))
             fail("no memory");
         free(values);
@@ -198,11 +198,11 @@ static void read_site(struct site *site)
     read_scene(&site->file, "profiles/scenes/tschamut-arm.yaml");
     if (site->file.observations_count != BLOCKS)
         fail("there are other blocks");
-    site->seen = site->file.observations;
-    if (ceduo_observer_create(site->seen, BLOCKS, &site->observer) != CEDUO_OK)
+    site->observed = site->file.observations;
+    if (ceduo_observer_create(site->observed, BLOCKS, &site->observer) != CEDUO_OK)
         fail("no memory");
     for (size_t b = 0; b < BLOCKS; b++)
-        site->band[b] = stops_limit(site->seen[b].n);
+        site->band[b] = stops_limit(site->observed[b].n);
 }
 
 /* Replace every block by a sphere of the same mean diameter. */
@@ -211,7 +211,7 @@ static void make_round(struct site *site)
     static struct ceduo_observation round[BLOCKS];
     static struct ceduo_rock_def rocks[BLOCKS];
     for (size_t b = 0; b < BLOCKS; b++) {
-        round[b] = site->seen[b];
+        round[b] = site->observed[b];
         const struct ceduo_rock_def *rock = round[b].rock ? round[b].rock : &site->file.scene.rock;
         rocks[b] = ceduo_scene_default().rock;
         rocks[b].diameter = ceduo_number(ceduo_rock_mean(rock).mean_diameter);
@@ -220,7 +220,7 @@ static void make_round(struct site *site)
     ceduo_observer_free(site->observer);
     if (ceduo_observer_create(round, BLOCKS, &site->observer) != CEDUO_OK)
         fail("no memory");
-    site->seen = round;
+    site->observed = round;
 }
 
 int main(int argc, char **argv)

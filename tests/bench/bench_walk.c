@@ -164,11 +164,11 @@ static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
         seconds = median(core[c].seconds, repeats);
         print_line(site, core[c].what, rocks, seconds, (double)core[c].contacts / seconds);
     }
-    bool same = true;
+    bool equal = true;
     for (size_t c = 1; c < n; c++)
-        same &= core[c].contacts == core[0].contacts && core[c].arrivals.speed.mean == core[0].arrivals.speed.mean;
-    fprintf(stderr, "%s %s kernels and threads: %s\n", site->law, site->roughness, same ? "the same" : "DISAGREE");
-    return check_agreement(site, &core[0]) && same;
+        equal &= core[c].contacts == core[0].contacts && core[c].arrivals.speed.mean == core[0].arrivals.speed.mean;
+    fprintf(stderr, "%s %s kernels and threads: %s\n", site->law, site->roughness, equal ? "the same" : "DISAGREE");
+    return check_agreement(site, &core[0]) && equal;
 }
 
 static void measure_many(const struct site *site, size_t repeats)

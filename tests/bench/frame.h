@@ -14,8 +14,8 @@
 
 _Noreturn void fail(const char *why);
 
-/* Return the i-th argument, a whole number from `least` to `most`; `usual` if it is missing. */
-uint64_t argument(char **argv, int i, uint64_t usual, uint64_t least, uint64_t most);
+/* Return the i-th argument, a whole number from `min` to `max`; `usual` if it is missing. */
+uint64_t argument(char **argv, int i, uint64_t usual, uint64_t min, uint64_t max);
 
 /* Processor time of all threads, in seconds; other load does not count. */
 double processor_s(void);

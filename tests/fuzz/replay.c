@@ -48,7 +48,7 @@ static void splice(struct seed *s, size_t at, size_t n, const void *bytes, size_
     s->n += m - n;
 }
 
-static void change(struct seed *s, const struct seed *other)
+static void change(struct seed *s, const struct seed *second)
 {
     static const char *const words =
         "\n\0 \0:\0: \0- \0[\0]\0{\0}\0,\0=\0\"\0'\0#\0&a \0*a\0!\0|\n\0\t\0\xff\0\xc3\0\xe2\x80\xa6\0"
@@ -58,10 +58,10 @@ static void change(struct seed *s, const struct seed *other)
         "1e-320\0nan\0---\n\0? \0\r\n\0\x1b[2J\0[0]\0[a]\0.\0base: \0mean: \0source: \0"
         "999999999\0"
         "0.5\0\x01\0key \0type \0Enter \0Esc \0";
-    size_t at = draw(s->n + 1), left = s->n - at;
+    size_t at = draw(s->n + 1), rest = s->n - at;
     switch (draw(6)) {
     case 0:
-        if (left > 0)
+        if (rest > 0)
             s->bytes[at] = (uint8_t)draw(256);
         break;
     case 1: {
@@ -73,13 +73,13 @@ static void change(struct seed *s, const struct seed *other)
     }
     case 2: {
         size_t n = draw(2) ? 1 : draw(60);
-        splice(s, at, n < left ? n : left, "", 0);
+        splice(s, at, n < rest ? n : rest, "", 0);
         break;
     }
     case 3: {
         uint8_t copy[100];
         size_t n = draw(sizeof copy);
-        n = n < left ? n : left;
+        n = n < rest ? n : rest;
         memcpy(copy, s->bytes + at, n);
         splice(s, draw(s->n + 1), 0, copy, n);
         break;
@@ -89,13 +89,13 @@ static void change(struct seed *s, const struct seed *other)
         for (size_t n = draw(45); n > 0; n--)
             word += strlen(word) + 1;
         size_t n = draw(12);
-        splice(s, at, n < left ? n : left, word, strlen(word));
+        splice(s, at, n < rest ? n : rest, word, strlen(word));
         break;
     }
     default:
-        if (other->n > 0) {
-            size_t from = draw(other->n), n = draw(200);
-            splice(s, at, 0, other->bytes + from, n < other->n - from ? n : other->n - from);
+        if (second->n > 0) {
+            size_t from = draw(second->n), n = draw(200);
+            splice(s, at, 0, second->bytes + from, n < second->n - from ? n : second->n - from);
         }
         break;
     }

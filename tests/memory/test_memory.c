@@ -539,21 +539,21 @@ static bool follow(void)
 }
 
 /* A pool, and the views of its runs; neither changes it. */
-static struct ceduo_pool *seen;
+static struct ceduo_pool *viewed;
 
 static bool see(void)
 {
-    const struct ceduo_snapshot_def def = {.scene = &site.scene, .runs = seen, .envelope_rocks = 20, .trajectories = 3};
+    const struct ceduo_snapshot_def def = {.scene = &site.scene, .runs = viewed, .envelope_rocks = 20, .trajectories = 3};
     LOCAL(ceduo_snapshot, o);
     if (!is_done(ceduo_snapshot_create(&def, &o))) {
         assert_null(o);
         return false;
     }
-    const struct ceduo_run_snapshot *sight = ceduo_snapshot_find(o, &site.scene, 0);
-    add(sight->energies[0].values, sight->energies[0].n * sizeof(double));
-    add(sight->envelopes, o->cells * sizeof *sight->envelopes);
-    for (size_t i = 0; i < sight->trajectories_count; i++)
-        add(sight->trajectories[i].x, sight->trajectories[i].n * sizeof(double));
+    const struct ceduo_run_snapshot *view = ceduo_snapshot_find(o, &site.scene, 0);
+    add(view->energies[0].values, view->energies[0].n * sizeof(double));
+    add(view->envelopes, o->cells * sizeof *view->envelopes);
+    for (size_t i = 0; i < view->trajectories_count; i++)
+        add(view->trajectories[i].x, view->trajectories[i].n * sizeof(double));
     return true;
 }
 
@@ -562,11 +562,11 @@ TEST(views_of_runs)
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.rocks_most = 40;
-    assert_int_equal(ceduo_pool_create(&def, &seen), CEDUO_OK);
-    assert_int_equal(ceduo_pool_fill(seen), CEDUO_OK);
-    assert_int_equal(ceduo_pool_extend(seen, 40), CEDUO_OK);
+    assert_int_equal(ceduo_pool_create(&def, &viewed), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(viewed), CEDUO_OK);
+    assert_int_equal(ceduo_pool_extend(viewed, 40), CEDUO_OK);
     without_memory(see);
-    ceduo_pool_free(seen);
+    ceduo_pool_free(viewed);
 }
 
 static enum ceduo_status falls(void *context, double value, double *goal)

@@ -41,7 +41,7 @@ static const char faulty[] = "ceduo: scene/1\nrock: {diameter_m: -1, size: 2}\ns
 
 static const char by_csv[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n";
 
-static const char seen[] =
+static const char observed[] =
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\nrelease: {height_m: 1}\n"
     "observed:\n"
     "  - {name: few, stops: {x_m: stops.csv, only: block=1, use: check}, release: {vx_m_s: 3}, rock: {diameter_m: 0.4}}\n"
@@ -57,13 +57,14 @@ static const char kinds[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: pro
                             "observed: {speed: [{x_m: 30, values: [4, 5]}, {x_m: 40, mean: 3, sd: 1, n: 4}], scars: {from_m: "
                             "2, to_m: 9, height_m: [1]}}\n";
 
-static const char uncertain_scene[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
-                                "blocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}\n"
-                                "rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: [acer]}]}\n"
-                                "options:\n  - name: wood\n    forest: [{from_m: 10, to_m: 30, stand: uncertain.yaml}, "
-                                "{from_m: 30, to_m: 50, stand: uncertain.yaml}]\n  - {name: bare}\n"
-                                "uncertainty: [{path: 'options[*].forest[0].stand.energy.model', one_of: [brauner, dorren]}, "
-                                "{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.3}]\n";
+static const char uncertain_scene[] =
+    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
+    "blocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}\n"
+    "rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: [acer]}]}\n"
+    "options:\n  - name: wood\n    forest: [{from_m: 10, to_m: 30, stand: uncertain.yaml}, "
+    "{from_m: 30, to_m: 50, stand: uncertain.yaml}]\n  - {name: bare}\n"
+    "uncertainty: [{path: 'options[*].forest[0].stand.energy.model', one_of: [brauner, dorren]}, "
+    "{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.3}]\n";
 
 static const char uncertain[] = "ceduo: stand/1\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n"
                                 "uncertainty: [{path: 'trees[*].per_ha', lo: 50, hi: 70}]\n";
@@ -95,7 +96,7 @@ static int set_up(void **state)
     put("stand.yaml", stand);
     put("faulty.yaml", faulty);
     put("csv.yaml", by_csv);
-    put("seen.yaml", seen);
+    put("seen.yaml", observed);
     put("upward.yaml", upward);
     put("kinds.yaml", kinds);
     put("uncertain_scene.yaml", uncertain_scene);
@@ -129,13 +130,13 @@ int __wrap_fsync(int fd)
 }
 
 /* Arenas allocate from few pages: here each allocation can fail. */
-void *__real_ceduo_arena_take(struct arena *arena, size_t size);
-void *__real_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
+void *__real_ceduo_arena_alloc(struct arena *arena, size_t size);
+void *__real_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *capacity, size_t size);
 char *__real_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__real_ceduo_arena_string(struct arena *arena, const char *string);
 char *__real_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
-void *__wrap_ceduo_arena_take(struct arena *arena, size_t size);
-void *__wrap_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
+void *__wrap_ceduo_arena_alloc(struct arena *arena, size_t size);
+void *__wrap_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *capacity, size_t size);
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__wrap_ceduo_arena_string(struct arena *arena, const char *string);
 __attribute__((format(printf, 2, 0))) char *__wrap_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
@@ -149,14 +150,14 @@ static bool arena_fails(struct arena *arena)
     return failed;
 }
 
-void *__wrap_ceduo_arena_take(struct arena *arena, size_t size)
+void *__wrap_ceduo_arena_alloc(struct arena *arena, size_t size)
 {
-    return arena_fails(arena) ? NULL : __real_ceduo_arena_take(arena, size);
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_alloc(arena, size);
 }
 
-void *__wrap_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
+void *__wrap_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *capacity, size_t size)
 {
-    return arena_fails(arena) ? NULL : __real_ceduo_arena_more(arena, items, n, more, room, size);
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_grow(arena, items, n, more, capacity, size);
 }
 
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)

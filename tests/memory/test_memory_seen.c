@@ -88,31 +88,31 @@ static struct ceduo_observation make_observation(enum ceduo_observed_kind kind)
         .kind = kind, .x = 20, .from = 10, .to = 40, .n = 3, .mean = 5, .sd = 1, .share_seen = NAN};
 }
 
-static void see(struct ceduo_observation seen[4])
+static void see(struct ceduo_observation observed[4])
 {
-    seen[0] = make_observation(CEDUO_OBSERVED_STOPS);
-    seen[0].from = NAN;
-    seen[0].values = stops;
-    seen[1] = make_observation(CEDUO_OBSERVED_PASSED);
-    seen[1].count = 2;
-    seen[1].of = 3;
-    seen[2] = make_observation(CEDUO_OBSERVED_SCARS);
-    seen[2].values = scars;
-    seen[2].of = 10;
-    seen[3] = make_observation(CEDUO_OBSERVED_ENERGY);
-    seen[3].mean = 1e5;
-    seen[3].sd = 1e4;
-    seen[1].option = seen[3].option = 1;
+    observed[0] = make_observation(CEDUO_OBSERVED_STOPS);
+    observed[0].from = NAN;
+    observed[0].values = stops;
+    observed[1] = make_observation(CEDUO_OBSERVED_PASSED);
+    observed[1].count = 2;
+    observed[1].of = 3;
+    observed[2] = make_observation(CEDUO_OBSERVED_SCARS);
+    observed[2].values = scars;
+    observed[2].of = 10;
+    observed[3] = make_observation(CEDUO_OBSERVED_ENERGY);
+    observed[3].mean = 1e5;
+    observed[3].sd = 1e4;
+    observed[1].option = observed[3].option = 1;
 }
 
 static bool compare(void)
 {
-    struct ceduo_observation seen[4];
+    struct ceduo_observation observed[4];
     struct ceduo_observer *observer;
     struct ceduo_observation_fit to[4];
     make_ground();
-    see(seen);
-    enum ceduo_status status = ceduo_observer_create(seen, 4, &observer);
+    see(observed);
+    enum ceduo_status status = ceduo_observer_create(observed, 4, &observer);
     if (!is_done(status)) {
         assert_null(observer);
         return false;
@@ -132,11 +132,11 @@ static bool compare(void)
 
 static bool compare_without_fit(void)
 {
-    struct ceduo_observation seen[4];
+    struct ceduo_observation observed[4];
     struct ceduo_predicted to[4];
     make_ground();
-    see(seen);
-    const struct ceduo_calibration_scene scene = {.scene = &ground.of.scene, .observations_count = 4, .observations = seen};
+    see(observed);
+    const struct ceduo_calibration_scene scene = {.scene = &ground.of.scene, .observations_count = 4, .observations = observed};
     enum ceduo_status status = ceduo_compare_with_observations(&scene, ROCKS, NULL, to);
     for (size_t i = 0; i < 4 && status == CEDUO_OK; i++)
         add(&to[i].p_value, sizeof to[i].p_value);
@@ -153,19 +153,19 @@ static void tell(void *context, const struct ceduo_calibration_state *state)
     note_told(state->stage == counted_stage);
 }
 
-#define SEEN 200 /* repeats of an observation */
+#define REPEATS 200 /* repeats of an observation */
 
 /* Fit one value to a repeated observation of a speed at x with the second option; chains of one round. */
 static enum ceduo_status run_fit(const struct ceduo_input *input, double x, struct ceduo_calibration_def def)
 {
-    struct ceduo_observation seen[SEEN];
+    struct ceduo_observation observed[REPEATS];
     make_ground();
-    for (size_t i = 0; i < SEEN; i++) {
-        seen[i] = make_observation(CEDUO_OBSERVED_SPEED);
-        seen[i].x = x;
-        seen[i].option = 1;
+    for (size_t i = 0; i < REPEATS; i++) {
+        observed[i] = make_observation(CEDUO_OBSERVED_SPEED);
+        observed[i].x = x;
+        observed[i].option = 1;
     }
-    const struct ceduo_calibration_scene scene = {&ground.of.scene, input, SEEN, seen}, scenes[2] = {scene, scene};
+    const struct ceduo_calibration_scene scene = {&ground.of.scene, input, REPEATS, observed}, scenes[2] = {scene, scene};
     struct ceduo_calibration a;
     def.scenes = scenes;
     def.parameters_count = def.seed = def.steps_most = 1;
@@ -257,13 +257,13 @@ static bool compare_many(void)
 {
     enum { MANY = 64 };
     static struct ceduo_rock_def rocks[MANY];
-    struct ceduo_observation seen[MANY];
+    struct ceduo_observation observed[MANY];
     LOCAL(ceduo_observer, observer);
     for (size_t i = 0; i < MANY; i++) {
-        seen[i] = make_observation(CEDUO_OBSERVED_SPEED);
-        seen[i].rock = &rocks[i];
+        observed[i] = make_observation(CEDUO_OBSERVED_SPEED);
+        observed[i].rock = &rocks[i];
     }
-    enum ceduo_status status = ceduo_observer_create(seen, MANY, &observer);
+    enum ceduo_status status = ceduo_observer_create(observed, MANY, &observer);
     return is_done(status);
 }
 

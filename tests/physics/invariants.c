@@ -106,9 +106,9 @@ static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct
     size_t j = ceduo_slope_segment(s, fmin(p->x, p->x1)), k = ceduo_slope_segment(s, fmax(p->x, p->x1));
     if (j > 0 && fmin(p->x, p->x1) == s->x[j]) /* on the bottom vertex: the wall is the previous segment */
         j--;
-    double left = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]);
+    double gradient = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]);
     double right = (s->z[k + 1] - s->z[k]) / (s->x[k + 1] - s->x[k]);
-    return !p->rolls && fabs(p->x1 - p->x) < fmax(1e-6, 1e-2 * radius) && left < -1e3 && right > 1e3;
+    return !p->rolls && fabs(p->x1 - p->x) < fmax(1e-6, 1e-2 * radius) && gradient < -1e3 && right > 1e3;
 }
 
 /* On the ground a rock gains at most its drop. */
@@ -139,11 +139,11 @@ static void check_crsp(struct checker *w, const struct ceduo_trajectory_segment 
     double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j], length = hypot(dx, dz);
     double before = (w->last.vx1 * dx + w->last.vz1 * dz) / length, after = (p->vx * dx + p->vz * dz) / length;
     double rim_before = spin_at_end(w, &w->last) * w->rock.radius, rim_after = p->spin * w->rock.radius;
-    double rt = s->segments[j].rt.mean, most = rt * (rt + (1 - rt) / 1.2);
+    double rt = s->segments[j].rt.mean, max = rt * (rt + (1 - rt) / 1.2);
     double e0 = before * before + w->k * rim_before * rim_before, e1 = after * after + w->k * rim_after * rim_after;
     double rounding = 1e-15 * (w->last.vx1 * w->last.vx1 + w->last.vz1 * w->last.vz1 + p->vx * p->vx + p->vz * p->vz);
-    if (e1 > most * e0 + rounding && e0 > 1e-280) /* smaller squares lose their bits */
-        w->crsp_gain = fmax(w->crsp_gain, e0 > 0 ? e1 / (most * e0) - 1 : INFINITY);
+    if (e1 > max * e0 + rounding && e0 > 1e-280) /* smaller squares lose their bits */
+        w->crsp_gain = fmax(w->crsp_gain, e0 > 0 ? e1 / (max * e0) - 1 : INFINITY);
     w->impacts++;
 }
 
@@ -167,8 +167,8 @@ static void check_bound(struct checker *w, const struct ceduo_trajectory_segment
     double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j], length = hypot(dx, dz);
     double vt = (w->last.vx1 * dx + w->last.vz1 * dz) / length, vt_out = (p->vx * dx + p->vz * dz) / length;
     double vn = (w->last.vz1 * dx - w->last.vx1 * dz) / length, vn_out = (p->vz * dx - p->vx * dz) / length;
-    double most = s->segments[j].friction * (fmax(0, -vn) + vn_out);
-    w->over_bound = fmax(w->over_bound, (fabs(vt) - fabs(vt_out) - most) / before);
+    double max = s->segments[j].friction * (fmax(0, -vn) + vn_out);
+    w->over_bound = fmax(w->over_bound, (fabs(vt) - fabs(vt_out) - max) / before);
     w->impacts++;
 }
 
@@ -204,10 +204,10 @@ static bool is_smooth(const struct line_scene *s)
     return true;
 }
 
-static void expect_number(uint64_t scene, const char *what, double value, double most)
+static void expect_number(uint64_t scene, const char *what, double value, double max)
 {
-    if (!(value <= most))
-        fail_msg("scene %ju: %s %g, more than %g", (uintmax_t)scene, what, value, most);
+    if (!(value <= max))
+        fail_msg("scene %ju: %s %g, more than %g", (uintmax_t)scene, what, value, max);
 }
 
 static void expect_crossing(uint64_t number, const struct ceduo_crossing *c)

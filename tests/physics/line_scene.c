@@ -177,10 +177,10 @@ static void random_segment(struct ceduo_segment *to, struct line_random *r, doub
 static void random_ground(struct line_scene *s, struct line_random *r, double radius, bool lasting)
 {
     double rough = line_chance(r, 0.4) ? 0 : line_chance(r, 0.1) ? 1.5 : 0.5;
-    bool alike = line_chance(r, 0.5), ones = line_chance(r, 0.05);
+    bool equal = line_chance(r, 0.5), ones = line_chance(r, 0.05);
     for (size_t j = 0; j + 1 < s->scene.slope.vertices; j++) {
         struct ceduo_segment *to = &s->segments[j];
-        if (alike && j > 0)
+        if (equal && j > 0)
             *to = s->segments[0];
         else
             random_segment(to, r, radius, rough);
@@ -244,9 +244,9 @@ void line_scene_arm(struct line_scene *s, uint64_t number)
     rock->height = ceduo_number(size * line_uniform(r, 0.3, 3));
     for (int i = 0; i < 3; i++)
         rock->axes[i] = ceduo_number(size * line_uniform(r, 0.4, 2));
-    bool alike = line_chance(r, 0.5);
+    bool equal = line_chance(r, 0.5);
     for (size_t j = 0; j + 1 < s->scene.slope.vertices; j++)
-        s->segments[j].mu = alike && j > 0 ? s->segments[0].mu : line_chance(r, 0.05) ? 0 : line_uniform(r, 0, 3);
+        s->segments[j].mu = equal && j > 0 ? s->segments[0].mu : line_chance(r, 0.05) ? 0 : line_uniform(r, 0, 3);
 }
 
 bool line_scene_lasts(const struct line_scene *s)

@@ -12,7 +12,7 @@ struct map {
     gsl_rng *rng;
     uint64_t numbers; /* stools and trees planted */
     struct map_stem *stems;
-    size_t count, most;
+    size_t count, max;
 };
 
 static double mean_sum(const struct ceduo_stems *kinds, size_t n)
@@ -32,7 +32,7 @@ static void check_stem(struct map *m, double x, double y, double dbh, bool shoot
 {
     if (x < m->start || fabs(y) > m->b / 2 + dbh / 2)
         return;
-    if (m->count < m->most)
+    if (m->count < m->max)
         m->stems[m->count] = (struct map_stem){x, y, dbh, shoot, m->numbers};
     m->count++;
 }
@@ -61,7 +61,7 @@ static double dbh_of_shoot(const struct map *m, double shoots)
 static void plant_stools(struct map *m)
 {
     double shoots = mean_sum(m->stand->shoots, m->stand->shoots_count), mean = shoots / m->stand->stools_per_ha;
-    for (unsigned left = draw_centres(m, m->stand->stools_per_ha); left > 0; left--) {
+    for (unsigned rest = draw_centres(m, m->stand->stools_per_ha); rest > 0; rest--) {
         double x, y;
         draw_place(m, &x, &y);
         unsigned n = (unsigned)floor(mean) + (gsl_rng_uniform(m->rng) < mean - floor(mean));
@@ -76,7 +76,7 @@ static void plant_stools(struct map *m)
 
 static void plant_trees(struct map *m, const struct ceduo_stems *kind)
 {
-    for (unsigned left = draw_centres(m, kind->per_ha); left > 0; left--) {
+    for (unsigned rest = draw_centres(m, kind->per_ha); rest > 0; rest--) {
         double x, y;
         draw_place(m, &x, &y);
         m->numbers++;
@@ -104,9 +104,9 @@ static int compare_x(const void *a, const void *b)
 }
 
 size_t plane_map_sweep(const struct ceduo_option *option, double b, double start, gsl_rng *rng, struct map_stem *stems,
-                       size_t most)
+                       size_t max)
 {
-    struct map m = {.b = b, .start = start, .rng = rng, .stems = stems, .most = most};
+    struct map m = {.b = b, .start = start, .rng = rng, .stems = stems, .max = max};
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         m.stand = &belt->stand;
@@ -118,7 +118,7 @@ size_t plane_map_sweep(const struct ceduo_option *option, double b, double start
         for (size_t k = 0; k < m.stand->trees_count; k++)
             plant_trees(&m, &m.stand->trees[k]);
     }
-    if (m.count <= most)
+    if (m.count <= max)
         qsort(stems, m.count, sizeof *stems, compare_x);
     return m.count;
 }

@@ -17,8 +17,8 @@ struct map_stem {
 };
 
 /* Make a new map of `option` and write the stems that touch a strip of width `b` about y = 0 from x = `start`, in order of x.
- * Writes at most `most`; returns the number of stems. Diameters are the means of their kinds. */
+ * Writes at most `max`; returns the number of stems. Diameters are the means of their kinds. */
 size_t plane_map_sweep(const struct ceduo_option *option, double b, double start, gsl_rng *rng, struct map_stem *stems,
-                       size_t most);
+                       size_t max);
 
 #endif

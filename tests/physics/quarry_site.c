@@ -59,15 +59,15 @@ static void make_site(struct quarry_site *s, enum ceduo_law law, const double *t
 
 /* Observe the rocks: their stops, and speed and height at a place. */
 static bool observe(const struct quarry_site *s, const struct quarry_trial *trial, double **values,
-                    struct ceduo_observation *seen)
+                    struct ceduo_observation *observed)
 {
     static const enum ceduo_observed_kind kinds[] = {CEDUO_OBSERVED_STOPS, CEDUO_OBSERVED_SPEED, CEDUO_OBSERVED_HEIGHT};
     struct ceduo_observer *observer = NULL;
     bool good = true;
     for (size_t k = 0; k < trial->kinds; k++)
-        seen[k] =
+        observed[k] =
             (struct ceduo_observation){.kind = kinds[k], .name = "", .x = PLACE, .from = NAN, .to = NAN, .share_seen = NAN};
-    if (ceduo_observer_create(seen, trial->kinds, &observer) != CEDUO_OK)
+    if (ceduo_observer_create(observed, trial->kinds, &observer) != CEDUO_OK)
         return false;
     for (size_t k = 0; k < trial->kinds && good; k++) {
         size_t n, m = 0;
@@ -76,19 +76,19 @@ static bool observe(const struct quarry_site *s, const struct quarry_trial *tria
             if (!isnan(values[k][i]))
                 values[k][m++] = values[k][i];
         gsl_sort(values[k], 1, m);
-        seen[k].values = values[k];
-        seen[k].n = m;
-        seen[k].of = k == 0 ? trial->seen : 0;
+        observed[k].values = values[k];
+        observed[k].n = m;
+        observed[k].of = k == 0 ? trial->seen : 0;
         good = good && m >= VALUES_MIN;
     }
     ceduo_observer_free(observer);
     return good;
 }
 
-static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, const struct quarry_trial *trial,
+static bool fit(struct quarry_site *s, const struct ceduo_observation *observed, const struct quarry_trial *trial,
                 struct ceduo_calibration *answer)
 {
-    struct ceduo_calibration_scene scene = {&s->scene, s->inputs, trial->kinds, seen};
+    struct ceduo_calibration_scene scene = {&s->scene, s->inputs, trial->kinds, observed};
     struct ceduo_calibration_def def = {.scenes_count = 1,
                                         .scenes = &scene,
                                         .parameters_count = trial->values,
@@ -101,7 +101,7 @@ static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, con
 
 /* Draw the truth and simulate its observations into `values` and `observed`. */
 static bool make_observations(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct quarry_site *fitted,
-                              double **values, struct ceduo_observation *seen)
+                              double **values, struct ceduo_observation *observed)
 {
     struct quarry_site made;
     struct line_random random = {1000 * trial->number + 77 * trial->made_by};
@@ -109,7 +109,7 @@ static bool make_observations(const struct quarry_trial *trial, double truth[QUA
         truth[i] = i < trial->values || i < 3 ? line_uniform(&random, bounds[i][0], bounds[i][1]) : 0.5;
     make_site(&made, trial->made_by, truth, 100000 + trial->number);
     make_site(fitted, CEDUO_LAW_LUMPED, truth, 1 + trial->number);
-    return observe(&made, trial, values, seen);
+    return observe(&made, trial, values, observed);
 }
 
 static void forget(double **values)
@@ -121,9 +121,9 @@ static void forget(double **values)
 bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct ceduo_calibration *answer)
 {
     struct quarry_site site;
-    struct ceduo_observation seen[QUARRY_KINDS];
+    struct ceduo_observation observed[QUARRY_KINDS];
     double *values[QUARRY_KINDS] = {0};
-    bool good = make_observations(trial, truth, &site, values, seen) && fit(&site, seen, trial, answer);
+    bool good = make_observations(trial, truth, &site, values, observed) && fit(&site, observed, trial, answer);
     forget(values);
     return good;
 }
@@ -131,11 +131,11 @@ bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX
 bool quarry_look(const struct quarry_trial *trial, double p[QUARRY_KINDS])
 {
     struct quarry_site site;
-    struct ceduo_observation seen[QUARRY_KINDS];
+    struct ceduo_observation observed[QUARRY_KINDS];
     struct ceduo_predicted found[QUARRY_KINDS];
     double *values[QUARRY_KINDS] = {0}, truth[QUARRY_VALUES_MAX];
-    bool good = make_observations(trial, truth, &site, values, seen);
-    struct ceduo_calibration_scene scene = {&site.scene, site.inputs, trial->kinds, seen};
+    bool good = make_observations(trial, truth, &site, values, observed);
+    struct ceduo_calibration_scene scene = {&site.scene, site.inputs, trial->kinds, observed};
     good = good && ceduo_compare_with_observations(&scene, trial->rocks, NULL, found) == CEDUO_OK;
     for (size_t k = 0; good && k < trial->kinds; k++)
         p[k] = found[k].p_value;

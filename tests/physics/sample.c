@@ -98,9 +98,9 @@ void expect_chi_square(const char *what, double chi2, double freedom)
 
 void expect_ks(const char *what, double d, double size)
 {
-    double most = sqrt(-log(CHANCE / 2) / 2);
-    print_message("# %s: D = %.2e, D sqrt(n) = %.3f of at most %.3f\n", what, d, d * sqrt(size), most);
-    if (!(d * sqrt(size) < most))
+    double max = sqrt(-log(CHANCE / 2) / 2);
+    print_message("# %s: D = %.2e, D sqrt(n) = %.3f of at most %.3f\n", what, d, d * sqrt(size), max);
+    if (!(d * sqrt(size) < max))
         fail_msg("%s: D = %.3g of %.0f", what, d, size);
 }
 

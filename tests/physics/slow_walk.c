@@ -273,10 +273,8 @@ static enum todo fly_to_contact(struct walker *w)
 /* Return the facet that is hit. */
 static struct slow_turn facet(const struct walker *w)
 {
-    const slow_real u = w->def->uniform(w->def->context, w->way->contacts), most = w->at->theta_max;
-    const slow_real angle = w->def->facets == SLOW_BOTH  ? most * (2 * u - 1)
-                            : along(w, w->at->turn) >= 0 ? most * u
-                                                         : -most * u;
+    const slow_real u = w->def->uniform(w->def->context, w->way->contacts), max = w->at->theta_max;
+    const slow_real angle = w->def->facets == SLOW_BOTH ? max * (2 * u - 1) : along(w, w->at->turn) >= 0 ? max * u : -max * u;
     const struct slow_turn turned = facet_turn(w->at->angle + angle);
     return outward(w, turned) > 0 ? w->at->turn : turned; /* a rock cannot hit a face from which it moves away */
 }
@@ -303,23 +301,23 @@ struct tangential {
     slow_real speed, rim;
 };
 
-/* Limit the loss along the facet to `most`, the most that friction can take at this normal impulse. Mirror the impact first, so
+/* Limit the loss along the facet to `max`, the most that friction can take at this normal impulse. Mirror the impact first, so
  * that the rock arrives with positive speed. Friction then turns the spin forward while the rim is slower than the rock, and
  * backward otherwise, until the rock rolls. */
-static struct tangential with_friction_bound(const struct walker *w, slow_real vt, struct tangential law, slow_real most)
+static struct tangential with_friction_bound(const struct walker *w, slow_real vt, struct tangential law, slow_real max)
 {
-    const slow_real mirror = vt < 0 ? -1 : 1, least = fabs(vt) - most;
-    if (!(fabs(law.speed) < least))
+    const slow_real mirror = vt < 0 ? -1 : 1, min = fabs(vt) - max;
+    if (!(fabs(law.speed) < min))
         return law;
     if (w->def->law != SLOW_CRSP)
-        return (struct tangential){mirror * least, 0};
-    const slow_real rim = mirror * w->spin * (slow_real)w->def->radius, change = most / inertia(w->def);
+        return (struct tangential){mirror * min, 0};
+    const slow_real rim = mirror * w->spin * (slow_real)w->def->radius, change = max / inertia(w->def);
     slow_real rolls = rim;
-    if (rim < least)
-        rolls = rim + change < least ? rim + change : least;
-    else if (rim > least)
-        rolls = rim - change > least ? rim - change : least;
-    return (struct tangential){mirror * least, mirror * rolls};
+    if (rim < min)
+        rolls = rim + change < min ? rim + change : min;
+    else if (rim > min)
+        rolls = rim - change > min ? rim - change : min;
+    return (struct tangential){mirror * min, mirror * rolls};
 }
 
 static void apply_law(struct walker *w, struct slow_turn a)

@@ -18,9 +18,9 @@ static inline double stops_limit(size_t n)
 }
 
 /* Rocks without a stop lie beyond all others. Sorts `simulated` and sets the mean of all that stopped. NaN without memory. */
-static inline double stops_distance(const struct ceduo_observation *seen, double *simulated, size_t n, double *mean)
+static inline double stops_distance(const struct ceduo_observation *observed, double *simulated, size_t n, double *mean)
 {
-    double sum = 0, stopped = 0, most = 0;
+    double sum = 0, stopped = 0, max = 0;
     for (size_t i = 0; i < n; i++)
         if (isnan(simulated[i])) {
             simulated[i] = INFINITY;
@@ -29,21 +29,21 @@ static inline double stops_distance(const struct ceduo_observation *seen, double
             stopped++;
         }
     *mean = sum / stopped;
-    double *values = malloc(seen->n * sizeof *values);
+    double *values = malloc(observed->n * sizeof *values);
     if (!values)
         return NAN;
-    memcpy(values, seen->values, seen->n * sizeof *values);
+    memcpy(values, observed->values, observed->n * sizeof *values);
     qsort(simulated, n, sizeof *simulated, by_value);
-    qsort(values, seen->n, sizeof *values, by_value);
+    qsort(values, observed->n, sizeof *values, by_value);
     size_t below = 0;
-    for (size_t i = 0; i < seen->n; i++) {
+    for (size_t i = 0; i < observed->n; i++) {
         while (below < n && simulated[below] < values[i])
             below++;
-        double share = (double)below / (double)n, of = (double)seen->of;
-        most = fmax(most, fmax(fabs(share - (double)i / of), fabs(share - (double)(i + 1) / of)));
+        double share = (double)below / (double)n, of = (double)observed->of;
+        max = fmax(max, fmax(fabs(share - (double)i / of), fabs(share - (double)(i + 1) / of)));
     }
     free(values);
-    return most;
+    return max;
 }
 
 #endif

@@ -123,10 +123,10 @@ TEST(rolling_friction_takes_spin)
         double spin = line_uniform(&r, -5, 5) * vn / radius, friction = line_uniform(&r, 0, 1);
         struct blow c = {radius, radius, radius, line_uniform(&r, -1.5, 1.5), e, 0, friction, {vn, vn, spin}};
         struct impact out = apply_impact(&c);
-        double most = friction * radius * (1 + e) * vn / (0.4 * radius * radius), left = fmax(fabs(spin) - most, 0);
-        EXPECT_NEAR(out.spin * radius, copysign(left, spin) * radius, 1e-13 * vn);
+        double max = friction * radius * (1 + e) * vn / (0.4 * radius * radius), rest = fmax(fabs(spin) - max, 0);
+        EXPECT_NEAR(out.spin * radius, copysign(rest, spin) * radius, 1e-13 * vn);
         EXPECT_NEAR(out.vt, vn, 1e-14 * vn);
-        held += left == 0;
+        held += rest == 0;
     }
     EXPECT(held, >, 1000);
     EXPECT(held, <, 9000);
@@ -164,8 +164,8 @@ TEST(a_rock_stops_if_both_frictions_hold_it)
         struct blow c = random_blow(&r);
         c.a = c.b = c.radius;
         c.e = 0;
-        double least = fmin(c.mu, c.friction), slope = line_uniform(&r, 0, 3), vt = 0, spin = 0;
-        if (fabs(slope - least) < 0.01)
+        double min = fmin(c.mu, c.friction), slope = line_uniform(&r, 0, 3), vt = 0, spin = 0;
+        if (fabs(slope - min) < 0.01)
             continue;
         for (int n = 0; n < 2000; n++) {
             c.in = (struct impact){.vn = 1, .vt = vt + slope, .spin = spin};
@@ -174,7 +174,7 @@ TEST(a_rock_stops_if_both_frictions_hold_it)
             vt = out.vt;
             spin = out.spin;
         }
-        if (slope < least)
+        if (slope < min)
             EXPECT(vt, <=, 2.5 * slope * (1 + 1e-12));
         else
             EXPECT(vt, >, 2);
@@ -236,10 +236,10 @@ static void step(struct stepper *s, long double dp, long double friction)
 static long double until_slip_ends(const struct stepper *s, long double friction, long double dp)
 {
     long double ut = slip_speed(s);
-    struct stepper then = *s;
-    step(&then, dp, friction);
-    if (fabsl(ut) > 1e-15L && ut * slip_speed(&then) < 0)
-        return dp * ut / (ut - slip_speed(&then));
+    struct stepper next = *s;
+    step(&next, dp, friction);
+    if (fabsl(ut) > 1e-15L && ut * slip_speed(&next) < 0)
+        return dp * ut / (ut - slip_speed(&next));
     return dp;
 }
 
@@ -249,44 +249,44 @@ static void follow(struct stepper *s, long double e, bool newton)
     bool restores = false;
     while (start < 0) {
         long double friction = compute_friction(s), d = until_slip_ends(s, friction, dp), un = normal_speed(s);
-        struct stepper then = *s;
-        step(&then, d, friction);
-        if (!restores && un < 0 && normal_speed(&then) >= 0) {
-            step(s, d * un / (un - normal_speed(&then)), friction);
+        struct stepper next = *s;
+        step(&next, d, friction);
+        if (!restores && un < 0 && normal_speed(&next) >= 0) {
+            step(s, d * un / (un - normal_speed(&next)), friction);
             s->compression = s->work;
             restores = true;
             if (e == 0)
                 return;
             continue;
         }
-        bool over = newton ? normal_speed(&then) >= -e * start : then.work >= s->compression * (1 - e * e);
-        if (restores && over) {
+        bool done = newton ? normal_speed(&next) >= -e * start : next.work >= s->compression * (1 - e * e);
+        if (restores && done) {
             long double lo = 0, hi = d;
             for (int i = 0; i < 60; i++) {
                 long double middle = (lo + hi) / 2;
-                then = *s;
-                step(&then, middle, friction);
-                bool far = newton ? normal_speed(&then) >= -e * start : then.work >= s->compression * (1 - e * e);
+                next = *s;
+                step(&next, middle, friction);
+                bool far = newton ? normal_speed(&next) >= -e * start : next.work >= s->compression * (1 - e * e);
                 *(far ? &hi : &lo) = middle;
             }
             step(s, hi, friction);
             return;
         }
-        *s = then;
+        *s = next;
         if (fabsl(slip_speed(s)) < 1e-15L) /* exactly 0, so that it sticks */
             s->vt -= slip_speed(s);
     }
 }
 
 /* Minimise the energy by the impulses along the ground and the moment, within bounds: one at a time, many times. */
-static void minimise_energy(struct stepper *s, long double h, long double lo, long double hi, long double most)
+static void minimise_energy(struct stepper *s, long double h, long double lo, long double hi, long double max)
 {
     long double along = 0, moment = 0, vt = s->vt, spin = -s->spin;
     for (int i = 0; i < 20000; i++) {
         long double last = along;
         long double free = -(vt + h * (spin + moment / s->k2)) / (1 + h * h / s->k2);
         along = fmaxl(lo, fminl(hi, free));
-        moment = fmaxl(-most, fminl(most, -(s->k2 * spin + h * along)));
+        moment = fmaxl(-max, fminl(max, -(s->k2 * spin + h * along)));
         if (i > 10 && fabsl(along - last) < 1e-17L)
             break;
     }

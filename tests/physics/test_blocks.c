@@ -43,15 +43,15 @@ TEST(a_rock_twice_as_long_is_eight_times_as_heavy)
                                        .mass = number(640, 64),
                                        .density = number(LIMESTONE, 100),
                                        .axes = {number(.5, .25), number(1, .5), number(1.5, .75)}};
-    struct ceduo_rock_def is = ceduo_rock_scaled(&was, 2);
-    assert_int_equal(is.shape, CEDUO_BLOCK);
-    expect_scaled("diameter", is.diameter, was.diameter, 2);
-    expect_scaled("height", is.height, was.height, 2);
-    expect_scaled("volume", is.volume, was.volume, 8);
-    expect_scaled("mass", is.mass, was.mass, 8);
-    expect_scaled("density", is.density, was.density, 1);
+    struct ceduo_rock_def after = ceduo_rock_scaled(&was, 2);
+    assert_int_equal(after.shape, CEDUO_BLOCK);
+    expect_scaled("diameter", after.diameter, was.diameter, 2);
+    expect_scaled("height", after.height, was.height, 2);
+    expect_scaled("volume", after.volume, was.volume, 8);
+    expect_scaled("mass", after.mass, was.mass, 8);
+    expect_scaled("density", after.density, was.density, 1);
     for (int i = 0; i < 3; i++)
-        expect_scaled("axis", is.axes[i], was.axes[i], 2);
+        expect_scaled("axis", after.axes[i], was.axes[i], 2);
 }
 
 /* All descriptions of a rock. */
@@ -86,13 +86,14 @@ static struct ceduo_rock_def make_def(const struct rock *r)
 TEST(every_description_keeps_shape_and_density)
 {
     for (size_t i = 0; i < LENGTH(rocks); i++) {
-        struct ceduo_rock_def def = make_def(&rocks[i]), other = ceduo_rock_scaled(&def, 2);
-        struct ceduo_rock was, is;
+        struct ceduo_rock_def def = make_def(&rocks[i]), second = ceduo_rock_scaled(&def, 2);
+        struct ceduo_rock was, after;
         assert_int_equal(ceduo_rock_of_means(&def, &was), CEDUO_OK);
-        assert_int_equal(ceduo_rock_of_means(&other, &is), CEDUO_OK);
-        ROWS(expect_near, (rocks[i].name, is.mean_diameter, 2 * was.mean_diameter), (rocks[i].name, is.volume, 8 * was.volume),
-             (rocks[i].name, is.mass, 8 * was.mass), (rocks[i].name, is.k, was.k));
-        expect_near(rocks[i].name, is.moment, 32 * was.moment); /* mass times length squared */
+        assert_int_equal(ceduo_rock_of_means(&second, &after), CEDUO_OK);
+        ROWS(expect_near, (rocks[i].name, after.mean_diameter, 2 * was.mean_diameter),
+             (rocks[i].name, after.volume, 8 * was.volume), (rocks[i].name, after.mass, 8 * was.mass),
+             (rocks[i].name, after.k, was.k));
+        expect_near(rocks[i].name, after.moment, 32 * was.moment); /* mass times length squared */
     }
 }
 

@@ -12,7 +12,7 @@
 #define G CEDUO_GRAVITY
 
 static struct line_scene scene;
-static struct line_way way, other;
+static struct line_way way, second;
 
 static void follow(void)
 {
@@ -399,14 +399,14 @@ TEST(a_final_wall_is_left_at_its_foot_only_backwards)
 
 static bool same_pieces(const struct line_way *a, const struct line_way *b, double length, double speed)
 {
-    bool same = a->count == b->count && a->way.end == b->way.end && a->way.contacts == b->way.contacts;
-    for (size_t i = 0; same && i < a->count; i++) {
+    bool equal = a->count == b->count && a->way.end == b->way.end && a->way.contacts == b->way.contacts;
+    for (size_t i = 0; equal && i < a->count; i++) {
         const struct ceduo_trajectory_segment *p = &a->pieces[i], *q = &b->pieces[i];
-        same = p->rolls == q->rolls && p->x * length == q->x && p->z * length == q->z && p->x1 * length == q->x1 &&
-               p->z1 * length == q->z1 && p->vx * speed == q->vx && p->vz * speed == q->vz && p->vx1 * speed == q->vx1 &&
-               p->vz1 * speed == q->vz1 && p->contacts == q->contacts && p->seconds * (length / speed) == q->seconds;
+        equal = p->rolls == q->rolls && p->x * length == q->x && p->z * length == q->z && p->x1 * length == q->x1 &&
+                p->z1 * length == q->z1 && p->vx * speed == q->vx && p->vz * speed == q->vz && p->vx1 * speed == q->vx1 &&
+                p->vz1 * speed == q->vz1 && p->contacts == q->contacts && p->seconds * (length / speed) == q->seconds;
     }
-    return same;
+    return equal;
 }
 
 /* A profile in survey coordinates, relative to its first vertex, is the profile itself if no bit is lost. */
@@ -426,8 +426,8 @@ TEST(a_shift_that_loses_no_bit_changes_no_bit)
         for (size_t i = vertices; i-- > 0;)
             scene.x[i] -= scene.x[0];
         scene.scene.slope.origin_x = origin;
-        assert_int_equal(line_scene_follow(&scene, &other), CEDUO_OK);
-        assert_true(same_pieces(&way, &other, 1, 1));
+        assert_int_equal(line_scene_follow(&scene, &second), CEDUO_OK);
+        assert_true(same_pieces(&way, &second, 1, 1));
     }
 }
 
@@ -459,10 +459,10 @@ static void expect_the_same_way_in_other_sizes(bool arm)
         line_scene_release(&scene, r->x.mean * 4, r->height.mean * 4, r->vx.mean * 2, r->vz.mean * 2, r->spin.mean / 2);
         scene.control.x *= 4;
         struct ceduo_crossing before = way.crossing;
-        assert_int_equal(line_scene_follow(&scene, &other), CEDUO_OK);
-        assert_true(same_pieces(&way, &other, 4, 2));
-        ROWS(EXPECT, (before.reached, ==, other.crossing.reached), (before.height * 4, ==, other.crossing.height),
-             (before.vx * 2, ==, other.crossing.vx), (before.vz * 2, ==, other.crossing.vz));
+        assert_int_equal(line_scene_follow(&scene, &second), CEDUO_OK);
+        assert_true(same_pieces(&way, &second, 4, 2));
+        ROWS(EXPECT, (before.reached, ==, second.crossing.reached), (before.height * 4, ==, second.crossing.height),
+             (before.vx * 2, ==, second.crossing.vx), (before.vz * 2, ==, second.crossing.vz));
     }
     EXPECT(bounces, >, 10000);
 }
@@ -656,8 +656,8 @@ TEST(moments_added_and_merged)
                 ceduo_moments_add(&part, values[i++]);
             ceduo_moments_merge(&all, &part);
         }
-        struct ceduo_moments none = {0};
-        ceduo_moments_merge(&all, &none);
+        struct ceduo_moments empty = {0};
+        ceduo_moments_merge(&all, &empty);
         assert_int_equal(all.n, n);
         EXPECT(all.max, ==, largest);
         ROWS(expect_relative, (all.mean, (double)mean, 1e-14), (all.m2, (double)squares, 1e-9),

@@ -148,7 +148,7 @@ static double curve(const struct asked *a, double value)
 
 TEST(inverse_and_forward_agree)
 {
-    unsigned most = 0, sum = 0, crossings = 0;
+    unsigned max = 0, sum = 0, crossings = 0;
     for (int i = 0; i < GOALS; i++) {
         struct asked a = {.goal = curve,
                           .p = {uniform(.1, 100) * (i % 2 ? -1 : 1), floor(uniform(0, 7)), uniform(.2, 4), uniform(0, 1)}};
@@ -170,10 +170,10 @@ TEST(inverse_and_forward_agree)
             crossings++;
             sum += found.evaluations;
         }
-        most = found.evaluations > most ? found.evaluations : most;
+        max = found.evaluations > max ? found.evaluations : max;
     }
     EXPECT(crossings, >, GOALS / 2);
-    print_message("%u crossings: %.1f evaluations each, %u at most\n", crossings, (double)sum / crossings, most);
+    print_message("%u crossings: %.1f evaluations each, %u at most\n", crossings, (double)sum / crossings, max);
 }
 
 static double line(const struct asked *a, double value)

@@ -91,16 +91,16 @@ TEST(friction_bounds_the_loss_along_the_facet)
         for (int i = 0; i < IMPACTS; i++) {
             struct blow b = random_blow(&r, laws[l]);
             struct impact in = b.in, law = strike_flat(laws[l], &b, false), out = strike_flat(laws[l], &b, true);
-            double most = b.at.friction * (in.vn + law.vn), rounding = ROUNDING * (fabs(in.vt) + most);
+            double max = b.at.friction * (in.vn + law.vn), rounding = ROUNDING * (fabs(in.vt) + max);
             EXPECT(out.vn, ==, law.vn);
             if (in.vt != 0)
-                EXPECT(loss(in, out), <=, most + rounding);
-            if (in.vt == 0 || fabs(in.vt) - fabs(law.vt) <= most) {
+                EXPECT(loss(in, out), <=, max + rounding);
+            if (in.vt == 0 || fabs(in.vt) - fabs(law.vt) <= max) {
                 EXPECT_SAME(out, law, vt, spin);
                 continue;
             }
             binds++;
-            EXPECT_NEAR(loss(in, out), most, rounding);
+            EXPECT_NEAR(loss(in, out), max, rounding);
             EXPECT(in.vt * out.vt, >=, 0);
             EXPECT(fabs(out.vt), >=, fabs(law.vt));
             if (!laws[l]->spins) {
@@ -108,11 +108,11 @@ TEST(friction_bounds_the_loss_along_the_facet)
                 continue;
             }
             double one = copysign(1, in.vt), rim = one * in.spin * b.at.radius, to = one * out.spin * b.at.radius;
-            double rolling = fabs(out.vt), room = ROUNDING * (fabs(in.vt) + fabs(rim) + most / b.at.k);
-            EXPECT(fabs(to - rim), <=, most / b.at.k + room);
-            EXPECT(to, >=, fmin(rim, rolling) - room);
-            EXPECT(to, <=, fmax(rim, rolling) + room);
-            bool follows = fabs(fabs(to - rim) - most / b.at.k) <= room, at_rolling = fabs(to - rolling) <= room;
+            double rolling = fabs(out.vt), tolerance = ROUNDING * (fabs(in.vt) + fabs(rim) + max / b.at.k);
+            EXPECT(fabs(to - rim), <=, max / b.at.k + tolerance);
+            EXPECT(to, >=, fmin(rim, rolling) - tolerance);
+            EXPECT(to, <=, fmax(rim, rolling) + tolerance);
+            bool follows = fabs(fabs(to - rim) - max / b.at.k) <= tolerance, at_rolling = fabs(to - rolling) <= tolerance;
             assert_true(follows || at_rolling);
             rolls += at_rolling;
         }

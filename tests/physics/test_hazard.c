@@ -178,7 +178,7 @@ TEST(equal_weights_change_nothing)
 TEST(weights_explain_without_error)
 {
     struct weight_totals all = {.n = N, .per_year = 1};
-    struct weighted_sum ones = {0}, none = {0}, fives = {0};
+    struct weighted_sum ones = {0}, zeros = {0}, fives = {0};
     for (size_t i = 0; i < N; i++) {
         double w = i % 2 ? 0.5 : 1.5;
         all.w += w;
@@ -188,7 +188,7 @@ TEST(weights_explain_without_error)
     }
     EXPECT_NEAR(ceduo_weighted_se(&all, &ones), 0, 0);
     EXPECT_NEAR(ceduo_weighted_se(&all, &fives), 0, 0);
-    struct ceduo_estimate all_of_them = ceduo_weighted_share(&all, &ones, -1), nobody = ceduo_weighted_share(&all, &none, -1);
+    struct ceduo_estimate all_of_them = ceduo_weighted_share(&all, &ones, -1), nobody = ceduo_weighted_share(&all, &zeros, -1);
     EXPECT_NEAR(all_of_them.mean, 1, 0);
     EXPECT_NEAR(all_of_them.hi, 1, 0);
     assert_true(all_of_them.lo > 0.99 && all_of_them.lo < 1);
@@ -204,7 +204,7 @@ TEST(weights_explain_without_error)
     ROWS(EXPECT_NEAR, (known.mean, 0.75, 1e-12), (known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9),
          (known.hi, ceduo_wilson(.75, .75, 800).hi, 1e-9));
     all.missing = all.w / 10;
-    EXPECT_NEAR(ceduo_weighted_share(&all, &none, -1).hi, ceduo_wilson(.1, .1, 800).hi, 1e-12);
+    EXPECT_NEAR(ceduo_weighted_share(&all, &zeros, -1).hi, ceduo_wilson(.1, .1, 800).hi, 1e-12);
     all.n = 1;
     assert_true(isnan(ceduo_weighted_se(&all, &ones)));
 }
@@ -260,8 +260,8 @@ TEST(few_rocks_give_bounds)
     assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h, NULL));
     assert_true(isnan(h.accepted.mean));
     EXPECT_NEAR(ceduo_hazard_feared(&h).mean, 0.0015, 1e-15);
-    struct ceduo_hazard none = ceduo_hazard_none();
-    ceduo_hazard_compare(&h, &none);
+    struct ceduo_hazard zeros = ceduo_hazard_none();
+    ceduo_hazard_compare(&h, &zeros);
     assert_true(isnan(h.left) && isnan(h.intensity[0].left));
 }
 

@@ -106,8 +106,8 @@ static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, 
     struct ceduo_run *scalar = run_with(one, CEDUO_KERNEL_SCALAR, rocks, rocks);
     static unsigned long times; /* the best kernel is one of the others: sometimes is enough */
     for (size_t i = times++ % 8 > 0; i < LANES; i++) {
-        LOCAL(ceduo_run, other) = run_with(*def, lanes[i], first, rocks);
-        compare(scene, scalar, other, def);
+        LOCAL(ceduo_run, vector) = run_with(*def, lanes[i], first, rocks);
+        compare(scene, scalar, vector, def);
     }
     uint64_t contacts = ceduo_run_contacts(scalar);
     saved += expect_same_arrivals(scene, scalar, &one, CEDUO_KERNEL_SCALAR);
@@ -467,7 +467,7 @@ TEST(lanes_match_the_slow_walk)
     for (int law = 0; law < 2; law++)
         for (size_t k = 0; k < LANES; k++) {
             struct paper_site site;
-            int same = 0, arrive = 0;
+            int equal = 0, arrive = 0;
             paper_site_init(&site);
             site.scene.simulation.law = law ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
             site.scene.release.height = ceduo_number(1);
@@ -477,10 +477,10 @@ TEST(lanes_match_the_slow_walk)
             for (uint64_t r = 0; r < ROCKS; r++) {
                 double slow = slow_speed(&site.scene, r);
                 arrive += !isnan(slow);
-                same += fabs(speeds[r] - slow) <= 1e-6 * slow || (isnan(speeds[r]) && isnan(slow));
+                equal += fabs(speeds[r] - slow) <= 1e-6 * slow || (isnan(speeds[r]) && isnan(slow));
             }
             EXPECT(arrive, >, ROCKS / 10);
-            EXPECT(same, >=, .99 * ROCKS);
+            EXPECT(equal, >=, .99 * ROCKS);
         }
 }
 

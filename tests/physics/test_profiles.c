@@ -18,11 +18,11 @@
 
 /* ---- profiles ---- */
 
-static void move_vertices(struct ceduo_slope *s, double by, uint64_t seed)
+static void move_vertices(struct ceduo_slope *s, double step, uint64_t seed)
 {
     struct line_random r = {.state = seed};
     for (size_t i = 1; i + 1 < s->vertices; i++)
-        s->z[i] += by * line_uniform(&r, -1, 1);
+        s->z[i] += step * line_uniform(&r, -1, 1);
 }
 
 static size_t segments_inside(const struct ceduo_slope *slope)
@@ -266,12 +266,12 @@ static void ignore_segment(void *context, const struct ceduo_trajectory_segment 
 /* On a fine profile a rock has the same trajectory, to the bit, with a callback for its segments. */
 TEST(a_callback_does_not_change_rolls)
 {
-    uint64_t same = 0, all = 0;
+    uint64_t equal = 0, all = 0;
     for (int kind = 0; kind < 2 * CEDUO_LAW_COUNT; kind++) {
-        for (int by = -5; by < 0; by++) {
+        for (int step = -5; step < 0; step++) {
             init_site((enum ceduo_law)(kind / 2), kind & 1);
             LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
-            move_vertices(&fine, pow(10, by), 3);
+            move_vertices(&fine, pow(10, step), 3);
             struct ceduo_scene scene = site.scene;
             scene.slope = fine;
             LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&scene, NULL);
@@ -282,11 +282,11 @@ TEST(a_callback_does_not_change_rolls)
                 struct ceduo_trajectory_callbacks watch = {.piece = ignore_segment};
                 assert_int_equal(ceduo_tracer_run(f, rock, NULL, &v, &c), CEDUO_OK);
                 assert_int_equal(ceduo_tracer_run(f, rock, &watch, &w, &d), CEDUO_OK);
-                same += v.end == w.end && v.contacts == w.contacts && v.x == w.x && v.z == w.z && c.reached == d.reached &&
-                        (!c.reached || c.vx == d.vx);
+                equal += v.end == w.end && v.contacts == w.contacts && v.x == w.x && v.z == w.z && c.reached == d.reached &&
+                         (!c.reached || c.vx == d.vx);
                 all++;
             }
         }
     }
-    EXPECT(same, ==, all);
+    EXPECT(equal, ==, all);
 }

@@ -76,11 +76,11 @@ TEST(observations_by_another_law_are_detected)
 /* Kolmogorov's distance from the uniform law times the root of n: above 2.23 with probability 1e-4. */
 static double uniform_distance(double *p, size_t n)
 {
-    double most = 0;
+    double max = 0;
     gsl_sort(p, 1, n);
     for (size_t i = 0; i < n; i++)
-        most = fmax(most, fmax((double)(i + 1) / (double)n - p[i], p[i] - (double)i / (double)n));
-    return most * sqrt((double)n);
+        max = fmax(max, fmax((double)(i + 1) / (double)n - p[i], p[i] - (double)i / (double)n));
+    return max * sqrt((double)n);
 }
 
 /* On the true ground, p of its observations is uniform. */

@@ -405,11 +405,11 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index is proportional to the number */
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(0, tau);
         double n = 2500 * (3 + 13 * exp(-.2 * tau)), dbh = 16 * (1 - exp(-.022 * tau));
-        double most = 250 * pow(25.4 / dbh, 1.605);
-        expect_relative(ceduo_stand_shoots(&grown.stand), fmin(n, most), 1e-12);
-        expect_relative(grown.stand.stools_per_ha, fmin(2500, most), 1e-12); /* each with at least one shoot */
-        thinned += most < n;
-        died += most < 2500;
+        double max = 250 * pow(25.4 / dbh, 1.605);
+        expect_relative(ceduo_stand_shoots(&grown.stand), fmin(n, max), 1e-12);
+        expect_relative(grown.stand.stools_per_ha, fmin(2500, max), 1e-12); /* each with at least one shoot */
+        thinned += max < n;
+        died += max < 2500;
     }
     EXPECT(thinned, >, 5);
     EXPECT(thinned, <, 20);
@@ -510,14 +510,14 @@ TEST(no_computed_stand_is_too_dense)
         for (unsigned year = 1; g->sdi_most > 0 && year < YEARS; year += 4) {
             LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(NAN, year);
             double all = g->trees_sdi_most > 0 ? g->trees_sdi_most : .35 * g->sdi_most;
-            double most = g->sdi_most * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
+            double max = g->sdi_most * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
             double sdi = index_by_hand(grown.stand.shoots, grown.stand.shoots_count), shoots = ceduo_stand_shoots(&grown.stand);
-            EXPECT(sdi, <=, most * (1 + 1e-9));
-            thinned += most > 0 && fabs(sdi - most) < 1e-9 * most;
+            EXPECT(sdi, <=, max * (1 + 1e-9));
+            thinned += max > 0 && fabs(sdi - max) < 1e-9 * max;
             if (shoots > 0 &&
                 grown.stand.stools_per_ha < s.stand.stools_per_ha * (1 - 1e-9)) { /* each living stool has one shoot */
                 expect_relative(grown.stand.stools_per_ha, shoots, 1e-12);
-                expect_relative(sdi, most, 1e-9);
+                expect_relative(sdi, max, 1e-9);
                 died++;
             }
         }

@@ -179,37 +179,39 @@ static double distance(const struct state *a, const struct state *b, const struc
 
 /* Return the contact at which two traces differ by more than `limit`, and set the distance; contacts + 1 means the end and the
  * control; 0: they agree. A contact of only one of them is an infinite distance. */
-static uint64_t find_difference(const struct trace *a, const struct trace *b, const struct sizes *s, double limit, double *by)
+static uint64_t find_difference(const struct trace *a, const struct trace *b, const struct sizes *s, double limit,
+                                double *difference)
 {
     uint64_t n = a->contacts < b->contacts ? a->contacts : b->contacts;
     n = n < CONTACTS ? n : CONTACTS;
     for (uint64_t i = 1; i <= n; i++) {
-        *by = a->after[i].known && b->after[i].known ? distance(&a->after[i], &b->after[i], s) : 0;
-        if (!(*by <= limit))
+        *difference = a->after[i].known && b->after[i].known ? distance(&a->after[i], &b->after[i], s) : 0;
+        if (!(*difference <= limit))
             return i;
     }
-    *by = INFINITY;
+    *difference = INFINITY;
     if (a->end < 0 && b->end < 0) /* both cut off, at their own places */
         return 0;
     if (a->end != b->end || a->reached != b->reached || (a->end >= 0 && a->contacts != b->contacts))
         return n + 1;
-    *by = larger(fabs(a->x - b->x), fabs(a->z - b->z)) / s->length;
+    *difference = larger(fabs(a->x - b->x), fabs(a->z - b->z)) / s->length;
     if (a->reached) {
-        *by = larger(*by, larger(fabs(a->crossing[0] - b->crossing[0]), fabs(a->crossing[1] - b->crossing[1])) / s->speed);
-        *by = larger(*by, fabs(a->crossing[2] - b->crossing[2]) * s->radius / s->speed);
-        *by = larger(*by, fabs(a->crossing[3] - b->crossing[3]) / s->length);
+        *difference = larger(*difference,
+                             larger(fabs(a->crossing[0] - b->crossing[0]), fabs(a->crossing[1] - b->crossing[1])) / s->speed);
+        *difference = larger(*difference, fabs(a->crossing[2] - b->crossing[2]) * s->radius / s->speed);
+        *difference = larger(*difference, fabs(a->crossing[3] - b->crossing[3]) / s->length);
     }
-    return *by <= limit ? 0 : n + 1;
+    return *difference <= limit ? 0 : n + 1;
 }
 
 /* True if perturbations of rounding size make the slow walk differ from itself by the same distance, no later. */
-static bool is_excused(const struct ceduo_scene *scene, uint64_t rock, const struct sizes *s, uint64_t at, double by)
+static bool is_excused(const struct ceduo_scene *scene, uint64_t rock, const struct sizes *s, uint64_t at, double difference)
 {
     struct line_random r = {.state = rock + 99};
     for (int i = 0; i < PERTURBED; i++) {
         double d;
         trace_slow(scene, rock, &r, &changed);
-        uint64_t parted = find_difference(&slow, &changed, s, fmin(by / 10, 1e-3), &d);
+        uint64_t parted = find_difference(&slow, &changed, s, fmin(difference / 10, 1e-3), &d);
         if (parted != 0 && parted <= at)
             return true;
     }
@@ -275,16 +277,16 @@ struct tally {
 static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally *tally)
 {
     struct sizes s = read_sizes(scene);
-    double by;
+    double difference;
     trace_fast(scene, rock, &fast);
     trace_slow(scene, rock, NULL, &slow);
     tally->rocks++;
     tally->contacts += slow.contacts;
     tally->cut_short += slow.end < 0;
-    uint64_t at = find_difference(&fast, &slow, &s, SAME, &by);
+    uint64_t at = find_difference(&fast, &slow, &s, SAME, &difference);
     if (at == 0 && fast.after[1].known && slow.after[1].known && distance(&fast.after[1], &slow.after[1], &s) > SAME_FIRST) {
         at = 1;
-        by = SAME_FIRST;
+        difference = SAME_FIRST;
     }
     if (at == 0) {
         tally->same++;
@@ -299,9 +301,9 @@ static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally
         tally->aimless++;
         return;
     }
-    if (!is_excused(scene, rock, &s, at, by))
+    if (!is_excused(scene, rock, &s, at, difference))
         fail_msg("seed %ju rock %ju: parts at contact %ju of %ju and %ju by %g", (uintmax_t)scene->simulation.seed,
-                 (uintmax_t)rock, (uintmax_t)at, (uintmax_t)fast.contacts, (uintmax_t)slow.contacts, by);
+                 (uintmax_t)rock, (uintmax_t)at, (uintmax_t)fast.contacts, (uintmax_t)slow.contacts, difference);
     tally->excused++;
 }
 

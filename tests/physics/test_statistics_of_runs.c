@@ -265,12 +265,12 @@ TEST(a_cancelled_run_can_continue)
     assert_int_equal(ceduo_run_rocks(run), done);
     struct ceduo_run_def plain = ceduo_run_def_default(&site.scene);
     plain.threads = 2;
-    LOCAL(ceduo_run, other) = make_run(&plain, done);
-    expect_same_run(run, other);
+    LOCAL(ceduo_run, second) = make_run(&plain, done);
+    expect_same_run(run, second);
     atomic_store(&c.flag, false);
     assert_int_equal(ceduo_run_extend(run, done + 3000), CEDUO_OK);
-    assert_int_equal(ceduo_run_extend(other, done + 3000), CEDUO_OK);
-    expect_same_run(run, other);
+    assert_int_equal(ceduo_run_extend(second, done + 3000), CEDUO_OK);
+    expect_same_run(run, second);
 }
 
 /* ---- spreads ---- */

@@ -27,11 +27,11 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
         assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_encounter *s = &sweep.stems[i];
-            double most = 1.7 * 38.7 * pow(100 * s->dbh, 2.31), u = fabs(s->y) / ((B + s->dbh) / 2);
+            double max = 1.7 * 38.7 * pow(100 * s->dbh, 2.31), u = fabs(s->y) / ((B + s->dbh) / 2);
             double share = printed_share(u);
-            if (!(fabs(s->taken / most - share) <= 1e-12 * fmax(share, 1e-3)))
-                fail_msg("u = %.17g takes %.17g of %.17g", u, s->taken, most);
-            spread_add(s->shoot ? &shoots : &trees, s->taken / most);
+            if (!(fabs(s->taken / max - share) <= 1e-12 * fmax(share, 1e-3)))
+                fail_msg("u = %.17g takes %.17g of %.17g", u, s->taken, max);
+            spread_add(s->shoot ? &shoots : &trees, s->taken / max);
         }
     }
     double mean = mean_printed_share();
@@ -86,11 +86,11 @@ static void after_hit(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct scaling *s = context;
     if (!isnan(s->left)) {
-        double was = s->last.vx1 * s->last.vx1 + s->last.vz1 * s->last.vz1, is = p->vx * p->vx + p->vz * p->vz;
-        expect_exact("v2 behind a stem", is / was, s->left, 1e-12);
+        double before = s->last.vx1 * s->last.vx1 + s->last.vz1 * s->last.vz1, after = p->vx * p->vx + p->vz * p->vz;
+        expect_exact("v2 behind a stem", after / before, s->left, 1e-12);
         if (s->spins)
             expect_exact("spin2 behind a stem", p->spin * p->spin / (last_spin(s) * last_spin(s)), s->left, 1e-12);
-        if (fabs(p->vz * s->last.vx1 - s->last.vz1 * p->vx) > 1e-12 * was)
+        if (fabs(p->vz * s->last.vx1 - s->last.vz1 * p->vx) > 1e-12 * before)
             fail_msg("a stem turned the rock");
         s->checked++;
     }

@@ -174,11 +174,11 @@ TEST(a_ring_is_met_at_the_mean_width_of_its_hull)
     }
 }
 
-/* Return the mean width, over all directions, from which both of two shoots `apart` metres from one another are met. */
-static double width_of_both(double width, double apart)
+/* Return the mean width, over all directions, from which both of two shoots `distance` metres from one another are met. */
+static double width_of_both(double width, double distance)
 {
-    double angle = apart > width ? asin(width / apart) : M_PI / 2;
-    return 2 / M_PI * (width * angle - apart * (1 - cos(angle)));
+    double angle = distance > width ? asin(width / distance) : M_PI / 2;
+    return 2 / M_PI * (width * angle - distance * (1 - cos(angle)));
 }
 
 /* Return that sum over all ordered pairs of a ring: the contribution of clumping to the variance. */
@@ -433,13 +433,13 @@ static void expect_whole_stools(void)
     for (size_t i = 0; i < sweep.count; i++) {
         const struct ceduo_stem_encounter *p = &sweep.stems[i];
         const struct planted *of = find_planted(p);
-        size_t same = 0;
+        size_t equal = 0;
         for (size_t j = 0; j < sweep.count; j++)
             if (sweep.stems[j].stool == p->stool) {
                 assert_ptr_equal(find_planted(&sweep.stems[j])->belt, of->belt);
-                same++;
+                equal++;
             }
-        assert_in_range(same, 1, p->shoot ? (size_t)ceil(per_stool(&of->belt->stand)) : 1);
+        assert_in_range(equal, 1, p->shoot ? (size_t)ceil(per_stool(&of->belt->stand)) : 1);
     }
 }
 

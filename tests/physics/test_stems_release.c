@@ -121,11 +121,11 @@ TEST(ground_covered_twice_has_its_stems_once)
         sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.piece = cover_piece, .stem = cover_stem, .context = &c});
         assert_int_equal(sweep.way.end, CEDUO_AT_REST);
         ROWS(EXPECT, (c.turns, >, 10), (c.lo, >, 200), (c.lo, <, 320), (c.hi, >, 500));
-        size_t behind = 0;
+        size_t after = 0;
         for (size_t i = 0; i < sweep.count; i++)
-            behind += sweep.stems[i].x < from;
-        spread_add(&left, (double)behind / (from - c.lo));
-        spread_add(&right, (double)(sweep.count - behind) / (c.hi - from));
+            after += sweep.stems[i].x < from;
+        spread_add(&left, (double)after / (from - c.lo));
+        spread_add(&right, (double)(sweep.count - after) / (c.hi - from));
         expect_each_stem_once();
     }
     sweep_end();
@@ -191,14 +191,14 @@ TEST(stems_are_equally_dense_around_a_release_in_the_forest)
 /* A stool on both sides of the release is one stool, whichever way the rock goes first. */
 TEST(stems_around_a_release_do_not_depend_on_the_first_direction)
 {
-    static struct ceduo_stem_encounter ahead[STEMS_MAX];
+    static struct ceduo_stem_encounter stems[STEMS_MAX];
     uint64_t astride = 0;
     for (uint64_t rock = 0; rock < 2000; rock++) {
         court_of_the_paper(AHEAD_AND_BACK);
         sweep_one(rock);
         expect_each_stem_once();
         size_t n = sweep.count, met = sweep.way.stools_met;
-        memcpy(ahead, sweep.stems, n * sizeof *ahead);
+        memcpy(stems, sweep.stems, n * sizeof *stems);
         assert_int_equal(met, count_different(false));
         court_of_the_paper(BACK_AND_AHEAD);
         sweep_one(rock);
@@ -206,10 +206,10 @@ TEST(stems_around_a_release_do_not_depend_on_the_first_direction)
         assert_int_equal(n, sweep.count);
         assert_int_equal(met, sweep.way.stools_met);
         for (size_t i = 0; i < n; i++)
-            if (by_place(&ahead[i], &sweep.stems[i]) != 0 || ahead[i].dbh != sweep.stems[i].dbh)
-                fail_msg("rock %ju: the stem at %.17g is another", (uintmax_t)rock, ahead[i].x);
+            if (by_place(&stems[i], &sweep.stems[i]) != 0 || stems[i].dbh != sweep.stems[i].dbh)
+                fail_msg("rock %ju: the stem at %.17g is another", (uintmax_t)rock, stems[i].x);
         for (size_t i = 1; i < n; i++)
-            astride += ahead[i - 1].x < RELEASE && ahead[i].x >= RELEASE && ahead[i - 1].stool == ahead[i].stool;
+            astride += stems[i - 1].x < RELEASE && stems[i].x >= RELEASE && stems[i - 1].stool == stems[i].stool;
     }
     EXPECT(astride, >, 40); /* there were some */
 }

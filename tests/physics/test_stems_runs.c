@@ -120,8 +120,8 @@ TEST(differences_have_the_error_of_differences_rock_by_rock)
         expect_pair("difference of shares above what is accepted", &d.exceed, &m.exceed, a.exceed.mean, b.exceed.mean);
         expect_pair("difference of J per released", &d.energy_per_released, &m.energy, a.energy_per_released.mean,
                     b.energy_per_released.mean);
-        double apart = hypot(a.energy_per_released.se, b.energy_per_released.se);
-        EXPECT(d.energy_per_released.se, <, (other ? 1 : .5) * apart);
+        double separate = hypot(a.energy_per_released.se, b.energy_per_released.se);
+        EXPECT(d.energy_per_released.se, <, (other ? 1 : .5) * separate);
     }
 }
 
@@ -192,7 +192,7 @@ TEST(stems_hit_by_blocks)
     enum { ROCKS = 400, SEEDS = 200 };
     static double volumes[] = {.05, 1}, own[ROCKS];
     struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
-    struct ceduo_moments over = {0}, errors = {0};
+    struct ceduo_moments above = {0}, errors = {0};
     struct ceduo_arrivals a;
     open_sides();
     site.scene.blocks = &blocks;
@@ -201,7 +201,7 @@ TEST(stems_hit_by_blocks)
         site.scene.simulation.seed = seed;
         struct ceduo_run *run = run_option(&site.scene, &sides.options[0], ROCKS, 1);
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        ceduo_moments_add(&over, a.contacts.mean);
+        ceduo_moments_add(&above, a.contacts.mean);
         ceduo_moments_add(&errors, a.contacts.se);
         if (seed < SEEDS) {
             ceduo_run_free(run);
@@ -233,7 +233,7 @@ TEST(stems_hit_by_blocks)
         expect_exact("their error", a.contacts.se, sqrt((xx - wx * wx / ww) * ROCKS / (ROCKS - 1)) / reached, 1e-9);
         ceduo_run_free(run);
     }
-    double ratio = ceduo_moments_sd(&over) / errors.mean;
+    double ratio = ceduo_moments_sd(&above) / errors.mean;
     EXPECT_NEAR(ratio, 1, 4 / sqrt(2. * SEEDS));
 }
 

@@ -155,7 +155,7 @@ TEST(free_runs_past_groups)
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     for (size_t k = 0; k < LENGTH(cases); k++) {
         const struct group_case *c = &cases[k];
-        uint64_t free = 0, flown = 0, strips = 100000, rocks = 10000;
+        uint64_t free = 0, free_rocks = 0, strips = 100000, rocks = 10000;
         struct spread met = {0}, drawn = {0};
         clear_plane(120);
         struct ceduo_belt *belt = plant_groups(10, 110, c->per_ha, c->n, c->radius);
@@ -171,11 +171,11 @@ TEST(free_runs_past_groups)
             size_t n = 0;
             for (size_t i = 0; i < sweep.count; i++)
                 n += sweep.stems[i].x >= 60 - c->threshold / 2 && sweep.stems[i].x <= 60 + c->threshold / 2;
-            flown += n == 0;
+            free_rocks += n == 0;
             spread_add(&met, (double)n);
         }
         const char *what = named("%u trees in %g m, flown", c->n, c->radius);
-        expect_share(what, flown, rocks, wanted);
+        expect_share(what, free_rocks, rocks, wanted);
         expect_mean(what, &met, c->threshold * per_metre(c->per_ha, B + TREE));
         expect_close(what, spread_variance(&met), spread_variance_se(&met), spread_variance(&drawn),
                      spread_variance_se(&drawn));
@@ -188,7 +188,7 @@ TEST(free_runs_past_groups)
 TEST(groups_keep_to_their_belt)
 {
     struct spread first = {0}, last = {0}, all = {0};
-    uint64_t none = 0;
+    uint64_t missed = 0;
     const uint64_t rocks = 20000;
     clear_plane(80);
     plant_groups(20, 50, 400, 5, 4);
@@ -203,7 +203,7 @@ TEST(groups_keep_to_their_belt)
             a += sweep.stems[i].x < 22;
             b += sweep.stems[i].x > 48;
         }
-        none += sweep.count == 0;
+        missed += sweep.count == 0;
         spread_add(&first, (double)a / 2);
         spread_add(&last, (double)b / 2);
         spread_add(&all, (double)sweep.count / 30);
@@ -213,7 +213,7 @@ TEST(groups_keep_to_their_belt)
     ROWS(expect_mean, ("per metre", &all, per_metre(400, B + TREE)),
          ("per metre at the first end", &first, per_metre(400, B + TREE)),
          ("per metre at the last end", &last, per_metre(400, B + TREE)));
-    expect_share("nothing met in the belt", none, rocks, index.meet_nothing_probability);
+    expect_share("nothing met in the belt", missed, rocks, index.meet_nothing_probability);
 }
 
 /* Groups around the release: equally many trees above and below, whichever way the rock goes. */

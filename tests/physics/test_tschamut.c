@@ -27,15 +27,15 @@ static int free_scene(void **state)
 }
 
 /* Compute distances and mean stops of the blocks in `observed`. */
-static void compare_blocks(const struct ceduo_observation *seen, double distance[BLOCKS], double mean[BLOCKS])
+static void compare_blocks(const struct ceduo_observation *observed, double distance[BLOCKS], double mean[BLOCKS])
 {
     struct ceduo_observer *observer;
-    assert_int_equal(ceduo_observer_create(seen, BLOCKS, &observer), CEDUO_OK);
+    assert_int_equal(ceduo_observer_create(observed, BLOCKS, &observer), CEDUO_OK);
     for (size_t b = 0; b < BLOCKS; b++) {
         double *values;
         size_t n;
         assert_int_equal(ceduo_observer_values(observer, &file.scene, b, ROCKS, &values, &n), CEDUO_OK);
-        distance[b] = stops_distance(&seen[b], values, n, &mean[b]);
+        distance[b] = stops_distance(&observed[b], values, n, &mean[b]);
         free(values);
     }
     ceduo_observer_free(observer);

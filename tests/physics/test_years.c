@@ -581,23 +581,23 @@ static void expect_ahead(enum ceduo_window_kind kind, unsigned first, unsigned l
 TEST_WITH(one_window_for_all_options, fresh, NULL)
 {
     struct ceduo_option two[2] = {wood.option, wood.option};
-    struct ceduo_belt other = wood.belts[0];
+    struct ceduo_belt second = wood.belts[0];
     wood.site.scene.options = two;
     wood.site.scene.options_count = 2;
     wood.site.scene.year_first = wood.site.scene.year_last = NAN;
-    two[1].belts = &other;
+    two[1].belts = &second;
     two[1].belts_count = 1;
     for (int i = 0; i < 2; i++)
         wood.belts[i].stand.cutting.rotation = 13;
-    other.stand.cutting.rotation = 15;
+    second.stand.cutting.rotation = 15;
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
-    other.stand.cutting.rotation = 40;
+    second.stand.cutting.rotation = 40;
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 40);
-    other.stand.cutting.rotation = 90;
+    second.stand.cutting.rotation = 90;
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 60);
-    other.cut_year = INFINITY; /* never cut: the rotation does not count */
+    second.cut_year = INFINITY; /* never cut: the rotation does not count */
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
-    other.stand.growth = (struct ceduo_growth){0}; /* as long as anything grows */
+    second.stand.growth = (struct ceduo_growth){0}; /* as long as anything grows */
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
     two[0] = two[1];
     expect_ahead(CEDUO_WINDOW_CONSTANT, 0, 0);

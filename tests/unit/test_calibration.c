@@ -43,10 +43,10 @@ static struct ceduo_observation all_pass(void)
 
 static unsigned threads = 1;
 
-static struct ceduo_calibration run_fit(const struct ceduo_scene *scene, const struct ceduo_observation *seen, size_t n,
-                                       uint64_t rocks)
+static struct ceduo_calibration run_fit(const struct ceduo_scene *scene, const struct ceduo_observation *observed, size_t n,
+                                        uint64_t rocks)
 {
-    const struct ceduo_calibration_scene of = {scene, &input, n, seen};
+    const struct ceduo_calibration_scene of = {scene, &input, n, observed};
     const struct ceduo_calibration_def def = {
         .scenes_count = 1, .scenes = &of, .parameters_count = 1, .rocks = rocks, .seed = 1, .threads = threads};
     struct ceduo_calibration a;
@@ -58,8 +58,8 @@ static struct ceduo_calibration run_fit(const struct ceduo_scene *scene, const s
 static struct ceduo_fitted fit_observation(double mean, double sd)
 {
     struct ceduo_scene scene = flight(0);
-    const struct ceduo_observation seen = speed(mean, sd);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2);
+    const struct ceduo_observation observed = speed(mean, sd);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &observed, 1, 2);
     struct ceduo_fitted p = a.parameters[0];
     return p;
 }
@@ -86,8 +86,8 @@ static double quantile(const double *sorted, size_t n, double p)
 TEST(a_normal_law_is_found)
 {
     struct ceduo_scene scene = flight(0);
-    const struct ceduo_observation seen = speed(14, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2);
+    const struct ceduo_observation observed = speed(14, 1);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &observed, 1, 2);
     const struct ceduo_fitted *p = &a.parameters[0];
     EXPECT_NEAR(p->best, 14, 0.02);
     EXPECT_NEAR(p->p2_5, 14 - 1.96, 4 * 0.19);
@@ -125,10 +125,10 @@ TEST(values_at_a_bound)
 TEST(threads_change_nothing)
 {
     struct ceduo_scene scene = flight(0);
-    const struct ceduo_observation seen = speed(14, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration one = run_fit(&scene, &seen, 1, 2);
+    const struct ceduo_observation observed = speed(14, 1);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration one = run_fit(&scene, &observed, 1, 2);
     threads = CEDUO_CALIBRATION_CHAINS + 1;
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration many = run_fit(&scene, &seen, 1, 2);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration many = run_fit(&scene, &observed, 1, 2);
     threads = 1;
     EXPECT(many.draws_count, ==, one.draws_count);
     assert_memory_equal(many.draws, one.draws, one.draws_count * sizeof *one.draws);
@@ -139,8 +139,8 @@ TEST(threads_change_nothing)
 TEST(without_information_the_law_stays_uniform)
 {
     struct ceduo_scene scene = flight(0);
-    const struct ceduo_observation seen = all_pass();
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2);
+    const struct ceduo_observation observed = all_pass();
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &observed, 1, 2);
     const struct ceduo_fitted *p = &a.parameters[0];
     double sum = 0, squares = 0, n = (double)a.draws_count;
     for (size_t i = 0; i < a.draws_count; i++) {
@@ -159,8 +159,8 @@ TEST(without_information_the_law_stays_uniform)
 TEST(chains_stay_within_their_bounds)
 {
     struct ceduo_scene scene = flight(0);
-    const struct ceduo_observation seen = speed(25, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 2);
+    const struct ceduo_observation observed = speed(25, 1);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &observed, 1, 2);
     EXPECT(a.parameters[0].best, >, HI - 0.01);
     EXPECT(a.parameters[0].best, <=, HI);
     for (size_t i = 0; i < a.draws_count; i++)
@@ -214,10 +214,10 @@ TEST(one_misfit_is_enough)
     struct ceduo_scene scene = flight(0);
     for (int first = 0; first < 2; first++)
         for (int check = 0; check < 2; check++) {
-            struct ceduo_observation seen[3] = {all_pass(), all_pass(), all_pass()};
-            seen[first] = speed(30, 1);
-            seen[first].use = check ? CEDUO_OBSERVED_CHECK : CEDUO_OBSERVED_FIT;
-            LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, seen, 3, 2);
+            struct ceduo_observation observed[3] = {all_pass(), all_pass(), all_pass()};
+            observed[first] = speed(30, 1);
+            observed[first].use = check ? CEDUO_OBSERVED_CHECK : CEDUO_OBSERVED_FIT;
+            LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, observed, 3, 2);
             EXPECT(a.predicted[first].p_value, <, 0.001);
             EXPECT(a.predicted[2].p_value, >, 0.5);
             EXPECT(a.misfit, ==, !check);
@@ -232,12 +232,12 @@ TEST(prediction_uses_other_rocks_than_the_fit)
     input.path = density;
     input.places = &density;
     input.lo = 2500, input.hi = 2700;
-    const struct ceduo_observation seen = speed(15, 1);
+    const struct ceduo_observation observed = speed(15, 1);
     struct ceduo_observation_fit own;
     LOCAL(ceduo_observer, observer);
-    EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_create(&observed, 1, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_simulate(observer, &scene, 50, NULL, &own), ==, CEDUO_OK);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &seen, 1, 50);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = run_fit(&scene, &observed, 1, 50);
     const struct ceduo_observation_fit *at_best = &a.predicted[0].at_best;
     EXPECT(at_best->mean, !=, own.mean);
     EXPECT_NEAR(at_best->mean, own.mean, 5 * hypot(at_best->sd, own.sd) / sqrt(50));
@@ -247,25 +247,25 @@ TEST(prediction_uses_other_rocks_than_the_fit)
 TEST(few_single_values_give_no_range)
 {
     struct ceduo_scene scene = flight(0);
-    struct ceduo_observation seen[2] = {all_pass(), speed(15, 1)};
-    struct ceduo_calibration a = run_fit(&scene, seen, 2, 2);
+    struct ceduo_observation observed[2] = {all_pass(), speed(15, 1)};
+    struct ceduo_calibration a = run_fit(&scene, observed, 2, 2);
     assert_true(a.predicted[1].one_lo < 15 && a.predicted[1].one_hi > 15);
     ceduo_calibration_free(&a);
-    seen[1].use = CEDUO_OBSERVED_CHECK; /* one rock has no spread to fit by */
-    a = run_fit(&scene, seen, 2, 1);
+    observed[1].use = CEDUO_OBSERVED_CHECK; /* one rock has no spread to fit by */
+    a = run_fit(&scene, observed, 2, 1);
     assert_true(isnan(a.predicted[1].one_lo) && isnan(a.predicted[1].one_hi));
     ceduo_calibration_free(&a);
 }
 
-#define SEEN   400 /* repeats */
-#define VALUES 30
+#define REPEATS 400 /* repeats */
+#define VALUES  30
 
 /* 400 lists from rocks of another seed, and 400 means of them: each p is uniform, in ten classes by Pearson's test with 9
  * degrees of freedom at the level of 1 in 1000. */
 TEST(p_is_uniform_under_the_truth)
 {
-    static struct ceduo_observation seen[2 * SEEN];
-    static struct ceduo_predicted p[2 * SEEN];
+    static struct ceduo_observation observed[2 * REPEATS];
+    static struct ceduo_predicted p[2 * REPEATS];
     struct ceduo_scene scene = flight(2), truth = scene;
     const struct ceduo_observation any = speed(15, 1);
     LOCAL(ceduo_observer, observer);
@@ -273,28 +273,28 @@ TEST(p_is_uniform_under_the_truth)
     size_t n;
     truth.simulation.seed = 99;
     EXPECT(ceduo_observer_create(&any, 1, &observer), ==, CEDUO_OK);
-    EXPECT(ceduo_observer_values(observer, &truth, 0, SEEN * VALUES, &values, &n), ==, CEDUO_OK);
-    EXPECT(n, ==, SEEN * VALUES);
-    for (size_t i = 0; i < SEEN; i++) {
+    EXPECT(ceduo_observer_values(observer, &truth, 0, REPEATS * VALUES, &values, &n), ==, CEDUO_OK);
+    EXPECT(n, ==, REPEATS * VALUES);
+    for (size_t i = 0; i < REPEATS; i++) {
         double *list = values + i * VALUES, sum = 0, squares = 0;
         qsort(list, VALUES, sizeof *list, rising);
         for (size_t k = 0; k < VALUES; k++) {
             sum += list[k] / VALUES;
             squares += (list[k] - 15) * (list[k] - 15) / VALUES;
         }
-        seen[i] = seen[SEEN + i] = speed(sum, 2);
-        seen[i].n = seen[SEEN + i].n = VALUES;
-        seen[i].values = list;
+        observed[i] = observed[REPEATS + i] = speed(sum, 2);
+        observed[i].n = observed[REPEATS + i].n = VALUES;
+        observed[i].values = list;
         EXPECT(squares, >, 1);
     }
-    const struct ceduo_calibration_scene of = {.scene = &scene, .observations_count = 2 * SEEN, .observations = seen};
+    const struct ceduo_calibration_scene of = {.scene = &scene, .observations_count = 2 * REPEATS, .observations = observed};
     EXPECT(ceduo_compare_with_observations(&of, 20000, NULL, p), ==, CEDUO_OK);
     for (size_t kind = 0; kind < 2; kind++) {
         double counts[10] = {0}, chi2 = 0;
-        for (size_t i = 0; i < SEEN; i++)
-            counts[(size_t)fmin(9, 10 * p[kind * SEEN + i].p_value)]++;
+        for (size_t i = 0; i < REPEATS; i++)
+            counts[(size_t)fmin(9, 10 * p[kind * REPEATS + i].p_value)]++;
         for (int c = 0; c < 10; c++)
-            chi2 += (counts[c] - SEEN / 10.) * (counts[c] - SEEN / 10.) / (SEEN / 10.);
+            chi2 += (counts[c] - REPEATS / 10.) * (counts[c] - REPEATS / 10.) / (REPEATS / 10.);
         EXPECT(chi2, <, 27.88);
     }
 }
@@ -306,7 +306,7 @@ TEST(p_is_uniform_under_the_truth)
  * errors, sqrt(1/12/1500). */
 TEST(p_of_lists_is_a_half_on_the_mean)
 {
-    static struct ceduo_observation seen[LISTS];
+    static struct ceduo_observation observed[LISTS];
     static struct ceduo_predicted p[LISTS];
     struct ceduo_scene scene = flight(2), truth = scene;
     const struct ceduo_observation any = speed(15, 1);
@@ -320,11 +320,11 @@ TEST(p_of_lists_is_a_half_on_the_mean)
     EXPECT(n, ==, LISTS * LONG);
     for (size_t i = 0; i < LISTS; i++) {
         qsort(values + i * LONG, LONG, sizeof *values, rising);
-        seen[i] = speed(15, 2);
-        seen[i].n = LONG;
-        seen[i].values = values + i * LONG;
+        observed[i] = speed(15, 2);
+        observed[i].n = LONG;
+        observed[i].values = values + i * LONG;
     }
-    const struct ceduo_calibration_scene of = {.scene = &scene, .observations_count = LISTS, .observations = seen};
+    const struct ceduo_calibration_scene of = {.scene = &scene, .observations_count = LISTS, .observations = observed};
     EXPECT(ceduo_compare_with_observations(&of, 20000, NULL, p), ==, CEDUO_OK);
     for (size_t i = 0; i < LISTS; i++)
         mean += p[i].p_value / LISTS;

@@ -155,7 +155,7 @@ TEST(threads_change_no_bit)
 
 /* Four chains of independent normal draws, chain k with mean k·apart; or each draw is phi times the previous one plus a new
  * one. */
-static struct chains make_chains(double apart, double phi)
+static struct chains make_chains(double distance, double phi)
 {
     struct chains c = {.dimensions = 1, .chains = 4, .steps = STEPS, .room = STEPS};
     struct line_random random = {.state = 5};
@@ -163,8 +163,8 @@ static struct chains make_chains(double apart, double phi)
     assert_non_null(c.x);
     for (size_t k = 0; k < 4; k++)
         for (size_t i = 0; i < STEPS; i++) {
-            double before = i > 0 ? c.x[4 * (i - 1) + k] - apart * (double)k : 0;
-            c.x[4 * i + k] = phi * before + sqrt(1 - phi * phi) * line_normal(&random) + apart * (double)k;
+            double before = i > 0 ? c.x[4 * (i - 1) + k] - distance * (double)k : 0;
+            c.x[4 * i + k] = phi * before + sqrt(1 - phi * phi) * line_normal(&random) + distance * (double)k;
         }
     return c;
 }

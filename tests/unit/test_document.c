@@ -596,17 +596,17 @@ TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, tear_down)
 /* Work on a scene that was saved elsewhere can be recovered there. */
 TEST_WITH(the_copy_refers_to_the_same_files, set_up, tear_down)
 {
-    char there[256], text[4096];
+    char target[256], text[4096];
     scatter("../slopes/by-csv.yaml");
     open_scene();
-    in_folder(there, "b/scenes/t.yaml");
-    save(there);
+    in_folder(target, "b/scenes/t.yaml");
+    save(target);
     set("slope.facets", "both");
     set("forest[0].stand.trees[0].per_ha", "50");
     assert_non_null(find_copy());
     strcpy(text, find_copy());
     ceduo_recovery_delete(&d.recovery);
-    reopen(there);
+    reopen(target);
     must(ceduo_document_recover(&d, text));
     expect_files();
     assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 50);

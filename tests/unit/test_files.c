@@ -138,35 +138,35 @@ TEST_WITH(long_names_are_written, folder_set_up_profiles, folder_tear_down)
     }
 }
 
-static char told[400];
+static char problem[400];
 
 /* Read a file into `text`; if that fails, put the message into `problem`. */
-static bool read_limited(const char *path, struct text *text, size_t most)
+static bool read_limited(const char *path, struct text *text, size_t max)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    const struct source *source = ceduo_file_read(&arena, path, most, &problems);
+    const struct source *source = ceduo_file_read(&arena, path, max, &problems);
     *text = (struct text){0};
     if (source)
         ceduo_text_add(text, source->bytes, source->length);
-    snprintf(told, sizeof told, "%s", ceduo_problems_print(&problems));
+    snprintf(problem, sizeof problem, "%s", ceduo_problems_print(&problems));
     assert_ptr_equal(arena.sources, source);
     return source != NULL;
 }
 
-static void expect_bytes(const char *path, size_t most, const char *bytes)
+static void expect_bytes(const char *path, size_t max, const char *bytes)
 {
     struct text text;
-    assert_true(read_limited(path, &text, most));
+    assert_true(read_limited(path, &text, max));
     assert_string_equal(ceduo_text_string(&text), bytes);
     ceduo_text_free(&text);
 }
 
-static void expect_problem(const char *path, size_t most, const char *words)
+static void expect_problem(const char *path, size_t max, const char *words)
 {
     struct text text;
-    assert_false(read_limited(path, &text, most));
-    assert_non_null(strstr(told, words));
+    assert_false(read_limited(path, &text, max));
+    assert_non_null(strstr(problem, words));
 }
 
 TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
@@ -194,35 +194,35 @@ TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
     assert_false(ceduo_file_write(link, "x", 1));
     assert_int_equal(errno, ELOOP);
     /* a bare name is in the current folder */
-    char here[4096];
-    assert_non_null(getcwd(here, sizeof here));
+    char cwd[4096];
+    assert_non_null(getcwd(cwd, sizeof cwd));
     assert_int_equal(chdir(folder), 0);
     assert_int_equal(symlink("bare", "bare-link"), 0);
     assert_true(ceduo_file_write("bare-link", "y", 1));
     expect_bytes("bare", 9, "y");
-    assert_int_equal(chdir(here), 0);
+    assert_int_equal(chdir(cwd), 0);
 }
 
 TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
 {
-    char path[256], link[256], other[256], none[256];
+    char path[256], link[256], second[256], missing[256];
     put("some", "x");
     put("other", "x");
     in_folder(path, "some");
     in_folder(link, "link");
-    in_folder(other, "other");
-    in_folder(none, "none");
+    in_folder(second, "other");
+    in_folder(missing, "none");
     assert_int_equal(symlink("some", link), 0);
     assert_true(ceduo_file_same(path, path));
     assert_true(ceduo_file_same(path, link));
     assert_true(ceduo_file_same(link, path));
-    assert_false(ceduo_file_same(path, other) || ceduo_file_same(path, none) || ceduo_file_same(none, path));
+    assert_false(ceduo_file_same(path, second) || ceduo_file_same(path, missing) || ceduo_file_same(missing, path));
     assert_false(ceduo_file_same(folder, folder)); /* folders are neither read nor written */
     int was = dup(STDIN_FILENO), fd = open(path, O_RDONLY);
     assert_int_equal(dup2(fd, STDIN_FILENO), STDIN_FILENO);
     close(fd);
     assert_true(ceduo_file_same(link, "-"));
-    assert_false(ceduo_file_same(other, "-"));
+    assert_false(ceduo_file_same(second, "-"));
     close(STDIN_FILENO);
     assert_false(ceduo_file_same(link, "-"));
     expect_problem("-", 9, "standard input: cannot read it: Bad file descriptor");

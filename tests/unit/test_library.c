@@ -377,16 +377,16 @@ static void compare_figures(const struct figures *was, const char *locale)
         print_message("no locale %s, and localedef cannot make it\n", locale);
         skip();
     }
-    struct figures is = read_figures();
+    struct figures after = read_figures();
     assert_string_equal(setlocale(LC_NUMERIC, NULL) + 5, ".UTF-8"); /* unchanged */
     double comma = strtod("1,5", NULL);
     setlocale(LC_ALL, "C");
     EXPECT(comma, ==, 1.5);
-    EXPECT_SAME(is, *was, gravity, friction, rn, rt, diameter, z, control, default_gravity, default_friction);
-    EXPECT_SAME(is, *was, reach, energy, speed, key);
-    assert_string_equal(is.message, was->message);
-    assert_string_equal(is.number, was->number);
-    assert_string_equal(is.text, was->text);
+    EXPECT_SAME(after, *was, gravity, friction, rn, rt, diameter, z, control, default_gravity, default_friction);
+    EXPECT_SAME(after, *was, reach, energy, speed, key);
+    assert_string_equal(after.message, was->message);
+    assert_string_equal(after.number, was->number);
+    assert_string_equal(after.text, was->text);
 }
 
 TEST_WITH(numbers_have_a_dot_in_every_locale, folder_set_up, folder_tear_down)

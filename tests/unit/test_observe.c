@@ -24,11 +24,11 @@ static void make_ground(double fall, double height, double vx, double vz)
     ground_make(&g, 200, fall, height, vx, vz);
 }
 
-static struct ceduo_observation_fit compare(struct ceduo_observation seen)
+static struct ceduo_observation_fit compare(struct ceduo_observation observed)
 {
     LOCAL(ceduo_observer, observer);
     struct ceduo_observation_fit c;
-    EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_create(&observed, 1, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_simulate(observer, &g.scene, ROCKS, NULL, &c), ==, CEDUO_OK);
     return c;
 }
@@ -71,12 +71,12 @@ static struct ceduo_observation stops(size_t n, double *values)
 }
 
 /* Return the values of all rocks for the first of n observations; caller frees. */
-static double *simulate_values(const struct ceduo_observation *seen, size_t n)
+static double *simulate_values(const struct ceduo_observation *observed, size_t n)
 {
     LOCAL(ceduo_observer, observer);
     double *values;
     size_t rocks;
-    EXPECT(ceduo_observer_create(seen, n, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_create(observed, n, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_values(observer, &g.scene, 0, ROCKS, &values, &rocks), ==, CEDUO_OK);
     EXPECT(rocks, ==, ROCKS);
     return values;
@@ -160,8 +160,8 @@ TEST(a_list_has_its_own_classes)
         EXPECT(c.seen[0], ==, (double)cases[i].first);
         EXPECT(c.seen[c.classes - 1], ==, (double)cases[i].last);
     }
-    double alike[10] = {30, 30, 30, 30, 30, 30, 30, 30, 30, 30};
-    EXPECT(compare(stops(10, alike)).seen[0], ==, 10); /* equal values are not split */
+    double equal[10] = {30, 30, 30, 30, 30, 30, 30, 30, 30, 30};
+    EXPECT(compare(stops(10, equal)).seen[0], ==, 10); /* equal values are not split */
     double mostly[20];
     for (int i = 0; i < 20; i++)
         mostly[i] = i < 18 ? 30 : 31;

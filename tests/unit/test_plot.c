@@ -139,15 +139,15 @@ static void set_belts(size_t n)
 static void change(const char *word)
 {
     static double many[1000];
-    const char *is = strchr(word, '=');
-    size_t length = is ? (size_t)(is - word) : strlen(word);
-    double value = is ? atof(is + 1) : NAN;
+    const char *equals = strchr(word, '=');
+    size_t length = equals ? (size_t)(equals - word) : strlen(word);
+    double value = equals ? atof(equals + 1) : NAN;
     bool known = false;
     for (size_t i = 0; i < LENGTH(numbers); i++)
-        if (is && strlen(numbers[i].name) == length && memcmp(numbers[i].name, word, length) == 0)
+        if (equals && strlen(numbers[i].name) == length && memcmp(numbers[i].name, word, length) == 0)
             *numbers[i].number = value, known = true;
     for (size_t i = 0; i < LENGTH(counts); i++)
-        if (is && strlen(counts[i].name) == length && memcmp(counts[i].name, word, length) == 0)
+        if (equals && strlen(counts[i].name) == length && memcmp(counts[i].name, word, length) == 0)
             *counts[i].number = (size_t)value, known = true;
     p.stems = p.stems_count > 0 ? &passed[first_stem] : NULL;
     if (strcmp(word, "wood") == 0)

@@ -169,14 +169,14 @@ TEST(years_without_rocks_have_no_difference)
 {
     struct ceduo_request q = make_request(50);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
-    LOCAL(ceduo_years, none);
+    LOCAL(ceduo_years, empty);
     q.years = true;
     q.window = (struct ceduo_window){.last = 1, .step = 1};
     assert_int_equal(ceduo_simulate_request(&q, NULL, &answer), CEDUO_OK);
-    assert_int_equal(ceduo_years_create(&site.scene, &site.option, q.window, &none), CEDUO_OK);
+    assert_int_equal(ceduo_years_create(&site.scene, &site.option, q.window, &empty), CEDUO_OK);
     EXPECT(ceduo_years_difference(answer.years[0], answer.years[0]).mean, ==, 0);
-    assert_true(isnan(ceduo_years_difference(answer.years[0], none).mean));
-    assert_true(isnan(ceduo_years_difference(none, answer.years[0]).mean));
+    assert_true(isnan(ceduo_years_difference(answer.years[0], empty).mean));
+    assert_true(isnan(ceduo_years_difference(empty, answer.years[0]).mean));
 }
 
 /* Three belts cut together, every ten years from year 2: by year, then along the slope. */
@@ -204,7 +204,7 @@ TEST(fellings_are_in_order)
  * half, which does not count. */
 TEST(a_freshly_cut_stand_has_a_yield)
 {
-    static struct ceduo_stems none[1];
+    static struct ceduo_stems empty[1];
     struct ceduo_belt belts[2];
     struct ceduo_option option = {.belts = belts, .belts_count = 1};
     LOCAL_BY(ceduo_yield_release) struct ceduo_yield alone, beside;
@@ -213,7 +213,7 @@ TEST(a_freshly_cut_stand_has_a_yield)
     belts[0].stand = (struct ceduo_stand){.species = site.belts[0].stand.species,
                                           .stools_per_ha = 2000,
                                           .spacing = 0.3,
-                                          .shoots = none,
+                                          .shoots = empty,
                                           .fracture_ratio = NAN,
                                           .growth = paper_growth,
                                           .cutting = {.rotation = 10}};

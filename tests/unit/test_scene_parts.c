@@ -29,7 +29,7 @@ static struct text scene_with(const char *lines)
 }
 
 /* Read a scene from the folder with its `sets`; fail unless it reports exactly the expected problem (NULL: none). */
-static void read_scene(struct scene_file *file, const char *lines, const char *const *sets, size_t n, const char *told)
+static void read_scene(struct scene_file *file, const char *lines, const char *const *sets, size_t n, const char *reported)
 {
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_BY(ceduo_text_free) struct text text = scene_with(lines);
@@ -37,8 +37,8 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
     put("scene.yaml", text.bytes);
     in_folder(path, "scene.yaml");
     bool good = ceduo_scene_load(file, path, sets, n, &problems);
-    if (good != !told || problems.wrong.count != !good || (told && !strstr(ceduo_problems_print(&problems), told)))
-        fail_msg("%s\n%s\nis not told '%s' alone but:\n%s", text.bytes, n ? sets[0] : "", told ? told : "nothing",
+    if (good != !reported || problems.wrong.count != !good || (reported && !strstr(ceduo_problems_print(&problems), reported)))
+        fail_msg("%s\n%s\nis not told '%s' alone but:\n%s", text.bytes, n ? sets[0] : "", reported ? reported : "nothing",
                  ceduo_problems_print(&problems));
 }
 
@@ -162,10 +162,10 @@ TEST_WITH(sources_of_ranges_are_no_notes, folder_set_up, folder_tear_down)
 TEST_WITH(entries_have_numbers, folder_set_up, folder_tear_down)
 {
     struct scene_file file;
-    const char *const none[] = {"1e999", "x"};
-    for (size_t i = 0; i < LENGTH(none); i++) {
+    const char *const missing[] = {"1e999", "x"};
+    for (size_t i = 0; i < LENGTH(missing); i++) {
         char title[32];
-        snprintf(title, sizeof title, "title: %s", none[i]);
+        snprintf(title, sizeof title, "title: %s", missing[i]);
         read_scene(&file, title, NULL, 0, NULL);
         const struct node *rock = ceduo_node_get(file.root, "rock");
         EXPECT(ceduo_node_number(rock, "diameter_m"), ==, 0.5);
@@ -237,10 +237,10 @@ TEST_WITH(places_have_belts, folder_set_up, folder_tear_down)
     read_scene(&file, "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}]", NULL, 0, NULL);
     const struct ceduo_scene *s = &file.scene;
     assert_ptr_equal(ceduo_input_belt(s, "options[1].forest[0].stand.stools.per_ha"), &s->options[1].belts[0]);
-    const char *const none[] = {"options[0].forest[0].to_m", "options[1].forest[1].to_m", "options[4000000000].forest[0].to_m",
-                                "forest[0].to_m", "rock.density_kg_m3"};
-    for (size_t i = 0; i < LENGTH(none); i++)
-        assert_null(ceduo_input_belt(s, none[i]));
+    const char *const missing[] = {"options[0].forest[0].to_m", "options[1].forest[1].to_m",
+                                   "options[4000000000].forest[0].to_m", "forest[0].to_m", "rock.density_kg_m3"};
+    for (size_t i = 0; i < LENGTH(missing); i++)
+        assert_null(ceduo_input_belt(s, missing[i]));
     ceduo_scene_release(&file);
     read_scene(&file, "forest: [{" BELT "}}]", NULL, 0, NULL);
     assert_ptr_equal(ceduo_input_belt(&file.scene, "forest[0].to_m"), &file.scene.options[0].belts[0]);
@@ -354,9 +354,9 @@ TEST(shapes_of_changes)
         assert_non_null(proposed);
         proposed += strlen("give the whole rock: -s '");
         *strchr(proposed, '\'') = '\0';
-        struct problems none = {0};
-        if (!ceduo_scene_set(&file, "--set", proposed, &none) || !ceduo_scene_bind(&file, &none))
-            fail_msg("%s: %s: %s", rows[i].rock, proposed, ceduo_problems_print(&none));
+        struct problems missing = {0};
+        if (!ceduo_scene_set(&file, "--set", proposed, &missing) || !ceduo_scene_bind(&file, &missing))
+            fail_msg("%s: %s: %s", rows[i].rock, proposed, ceduo_problems_print(&missing));
     }
 }
 

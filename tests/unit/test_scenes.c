@@ -19,14 +19,14 @@ __attribute__((format(printf, 2, 3))) static void write_file(const char *name, c
     put(name, text.bytes);
 }
 
-/* Read scene.yaml; put its problems into `problems`. */
-static bool read_scene(struct scene_file *file, char told[4096])
+/* Read scene.yaml; put its problems into `messages`. */
+static bool read_scene(struct scene_file *file, char messages[4096])
 {
     char path[256];
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     in_folder(path, "scene.yaml");
     bool good = ceduo_scene_load(file, path, NULL, 0, &problems);
-    snprintf(told, 4096, "%s", ceduo_problems_print(&problems));
+    snprintf(messages, 4096, "%s", ceduo_problems_print(&problems));
     return good;
 }
 
@@ -59,10 +59,10 @@ TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
     for (int n = 1; n <= 10; n++)
         for (size_t i = 0; i < LENGTH(stands); i++) {
             LOCAL_BY(ceduo_scene_release) struct scene_file file;
-            char told[4096], place[160];
+            char messages[4096], place[160];
             write_chain(n);
             write_file("scene.yaml", REST "forest: [{from_m: 10, to_m: 80, stand: %s}]\n", stands[i]);
-            assert_int_equal(read_scene(&file, told), n <= 8);
+            assert_int_equal(read_scene(&file, messages), n <= 8);
             if (n <= 8) {
                 const struct ceduo_belt *belt = &file.scene.options[0].belts[0];
                 assert_string_equal(belt->name, i == 2 ? "own" : i == 1 ? "last (changed)" : "last");
@@ -71,8 +71,8 @@ TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
             } else {
                 snprintf(place, sizeof place,
                          "%s/8.yaml:2:7: base: more than 8 files in a chain of 'base'; do they form a loop?\n", folder);
-                if (strstr(told, place) != told)
-                    fail_msg("%s", told);
+                if (strstr(messages, place) != messages)
+                    fail_msg("%s", messages);
             }
         }
 }
@@ -106,7 +106,7 @@ static void expect_ground(const struct ceduo_segment *s, const char *name)
 static void expect_cut(double x, double z, const char *materials, const struct vertex *wanted, bool csv)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    char told[4096];
+    char messages[4096];
     write_file("line.csv", "distance,elevation\n%.17g,%.17g\n%.17g,%.17g\n%.17g,%.17g\n", x, z + 50, x + 40, z + 20, x + 100,
                z);
     LOCAL_TEXT(profile);
@@ -118,8 +118,8 @@ static void expect_cut(double x, double z, const char *materials, const struct v
     write_file("scene.yaml",
                "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: %.17g}]\nslope: {%s, materials: [%s]}\n", x + 90,
                profile.bytes, materials);
-    if (!read_scene(&file, told))
-        fail_msg("%s", told);
+    if (!read_scene(&file, messages))
+        fail_msg("%s", messages);
     const struct ceduo_slope *s = &file.scene.slope;
     size_t n = 0;
     for (; wanted[n].ground; n++) {
@@ -223,9 +223,9 @@ TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
     for (TABLE(row, "unit/sources.txt", "sources")) {
         LOCAL_BY(ceduo_scene_release) struct scene_file file;
         LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-        char told[4096], plain[64], sets[256], *change, *rest = sets;
-        if (!read_scene(&file, told))
-            fail_msg("%s", told);
+        char messages[4096], plain[64], sets[256], *change, *rest = sets;
+        if (!read_scene(&file, messages))
+            fail_msg("%s", messages);
         snprintf(sets, sizeof sets, "%s", row.at[0]);
         while ((change = strsep(&rest, ";")))
             assert_true(ceduo_scene_set(&file, "--set", change + strspn(change, " "), &problems));
@@ -246,10 +246,10 @@ TEST_WITH(a_new_mapping_does_not_inherit_a_source, folder_set_up, folder_tear_do
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    char told[4096];
+    char messages[4096];
     write_file("stand.yaml", "%s", stand);
     write_file("scene.yaml", "%s", sourced);
-    assert_true(read_scene(&file, told));
+    assert_true(read_scene(&file, messages));
     assert_true(ceduo_scene_set(&file, "--set", "rock.diameter_m=0.6", &problems));
     expect_source(&file, "rock", "{kind: measured, text: m, except: [diameter_m]}", "rock.diameter_m");
     assert_true(ceduo_scene_set(&file, "--set", "release={vx_m_s: 2}", &problems));

@@ -19,8 +19,8 @@
  * 0.0547 up to 2, and is symmetric. */
 TEST(band_of_half_of_ten)
 {
-    double seen[10] = {0, 1, 1, 1, 1, 1, 9, 9, 9, 10}, simulated[4] = {0, 1, 9, 10};
-    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 10, .values = seen};
+    double observed[10] = {0, 1, 1, 1, 1, 1, 9, 9, 9, 10}, simulated[4] = {0, 1, 9, 10};
+    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 10, .values = observed};
     struct ceduo_observed_stops s = {0};
     ceduo_observed_stops_find(&o, simulated, 4, 4, &s);
     size_t middle = CEDUO_SEEN_PLACES / 2;
@@ -42,8 +42,8 @@ TEST(band_of_half_of_ten)
 /* If the number released is known, rocks that went on lie farther: 6 of 10 observed, 4 of 8 simulated. */
 TEST(rocks_that_did_not_stop_lie_farther)
 {
-    double seen[4] = {2, 3, 4, 5}, simulated[4] = {1, 2, 3, 6};
-    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .of = 10, .values = seen};
+    double observed[4] = {2, 3, 4, 5}, simulated[4] = {1, 2, 3, 6};
+    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .of = 10, .values = observed};
     struct ceduo_observed_stops s = {0};
     ceduo_observed_stops_find(&o, simulated, 4, 8, &s);
     EXPECT_NEAR(s.x[FIRST], 1, 1e-12);
@@ -138,7 +138,7 @@ static void cancel_at_stage(void *context, const struct ceduo_calibration_state 
 /* Level ground, and rocks that fall 100 m: their final speed, hypot(v, sqrt(2 g h)), identifies v. */
 static struct flight {
     struct ground ground;
-    struct ceduo_observation seen;
+    struct ceduo_observation observed;
 } flights[2];
 
 static const char *const speed = "release.vx_m_s", *const place = "release.x_m";
@@ -151,7 +151,7 @@ static struct ceduo_input range(const char *const *path, double lo, double hi)
 static void make_flight(struct flight *f, double v, double sd)
 {
     ground_make(&f->ground, 200, 0, 100, 10, 0);
-    f->seen = (struct ceduo_observation){
+    f->observed = (struct ceduo_observation){
         .kind = CEDUO_OBSERVED_LARGEST_SPEED, .n = 5, .mean = hypot(v, sqrt(2 * 9.81 * 100)), .sd = sd};
 }
 
@@ -166,7 +166,7 @@ TEST(a_fit_can_be_stopped)
 {
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
-    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
+    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].observed};
     struct ceduo_calibration_def def = run_fit(&fitted, 1, 1);
     struct ceduo_calibration a;
     struct ending e;
@@ -187,7 +187,7 @@ TEST(a_fit_of_few_steps)
 {
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
-    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
+    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].observed};
     struct ceduo_calibration_def def = run_fit(&fitted, 1, 1);
     struct ceduo_calibration a;
     def.steps_most = 2 * 50 + 1;
@@ -212,7 +212,7 @@ TEST(two_values_without_draws)
 {
     const struct ceduo_input inputs[2] = {range(&speed, 5, 15), range(&place, 0, 50)};
     make_flight(&flights[0], 10, 0.1);
-    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, inputs, 1, &flights[0].seen};
+    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, inputs, 1, &flights[0].observed};
     struct ceduo_calibration_def def = run_fit(&fitted, 1, 2);
     LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
     def.steps_most = 1;
@@ -235,10 +235,10 @@ TEST(a_place_exists_in_both_scenes)
         make_flight(&flights[i], 10, 0.1);
         flights[i].ground.segment.friction = 2;
         flights[i].ground.scene.release.height = ceduo_number(5);
-        fitted[i] = (struct ceduo_calibration_scene){&flights[i].ground.scene, &input, 1, &flights[i].seen};
+        fitted[i] = (struct ceduo_calibration_scene){&flights[i].ground.scene, &input, 1, &flights[i].observed};
     }
     flights[0].ground.x[1] = 30;
-    flights[0].seen.mean = hypot(10, sqrt(2 * 9.81 * 5));
+    flights[0].observed.mean = hypot(10, sqrt(2 * 9.81 * 5));
     for (size_t i = 0; i < 3; i++)
         segments[i] = flights[1].ground.segment;
     flights[1].ground.scene.slope =
@@ -263,7 +263,7 @@ TEST(half_of_the_draws_at_a_bound)
     const double v[2] = {5.3, 6};
     for (int i = 0; i < 2; i++) {
         make_flight(&flights[0], v[i], 0.01);
-        const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
+        const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].observed};
         struct ceduo_calibration_def def = run_fit(&fitted, 1, 1);
         LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
         def.steps_most = 251;

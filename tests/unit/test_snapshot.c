@@ -61,25 +61,25 @@ TEST_WITH(envelopes_start_after_the_release, by_index, NULL)
     }
 }
 
-static void expect_trajectories(const struct ceduo_run_snapshot *sight, const struct ceduo_run *run)
+static void expect_trajectories(const struct ceduo_run_snapshot *view, const struct ceduo_run *run)
 {
-    assert_non_null(sight);
-    assert_int_equal(sight->flown.rocks, ceduo_run_rocks(run));
-    assert_int_equal(sight->envelope_rocks, ceduo_run_rocks(run));
+    assert_non_null(view);
+    assert_int_equal(view->flown.rocks, ceduo_run_rocks(run));
+    assert_int_equal(view->envelope_rocks, ceduo_run_rocks(run));
     for (size_t c = 0; c < 2; c++) {
-        const struct ceduo_arrivals *found = &sight->flown.arrivals[c];
+        const struct ceduo_arrivals *found = &view->flown.arrivals[c];
         struct ceduo_arrivals a;
         assert_int_equal(ceduo_run_arrivals(run, c, &a), CEDUO_OK);
         EXPECT(a.reached, >, 0);
         assert_int_equal(found->reached, a.reached);
-        assert_int_equal(sight->energies[c].n, a.reached);
+        assert_int_equal(view->energies[c].n, a.reached);
         EXPECT_NEAR(found->energy.mean, a.energy.mean, 1e-12 * a.energy.mean);
         /* stored as floats: the deviation matches the counted one; the mean does not */
-        EXPECT_NEAR(gsl_stats_sd(sight->energies[c].values, 1, a.reached), found->energy.sd, 1e-6 * found->energy.sd);
+        EXPECT_NEAR(gsl_stats_sd(view->energies[c].values, 1, a.reached), found->energy.sd, 1e-6 * found->energy.sd);
     }
     for (size_t i = 1; i < CEDUO_SNAPSHOT_CELLS; i++)
-        EXPECT(sight->envelopes[i].passed, <=, sight->envelopes[i - 1].passed);
-    EXPECT(sight->envelopes[0].passed, >, 0);
+        EXPECT(view->envelopes[i].passed, <=, view->envelopes[i - 1].passed);
+    EXPECT(view->envelopes[0].passed, >, 0);
 }
 
 TEST_WITH(a_snapshot_equals_its_runs, wooded, NULL)

@@ -164,10 +164,10 @@ static void change_counts(void)
     size_t *const counts[] = {&s->controls_count,  &s->options_count,          &s->options->belts_count, &stand->shoots_count,
                               &stand->trees_count, &stand->cutting.stay_count, &s->blocks_count};
     size_t *count = counts[draw(LENGTH(counts))];
-    void *none = NULL;
+    void *missing = NULL;
     *count = *count > 0 && draw(2) ? draw(*count) : *count;
     if (draw(8) == 0)
-        memcpy(lists[draw(LENGTH(lists))], &none, sizeof none);
+        memcpy(lists[draw(LENGTH(lists))], &missing, sizeof missing);
     if (stand->trees && draw(8) == 0)
         stand->trees->per_ha = draw(2) ? DBL_MAX : 1e11;
 }
@@ -421,9 +421,9 @@ TEST(missing_lists_are_refused)
                               &stand->trees,
                               &stand->cutting.stay_per_ha};
     for (size_t i = 0; i < LENGTH(pointers); i++) {
-        void *was, *none = NULL;
+        void *was, *missing = NULL;
         memcpy(&was, pointers[i], sizeof was);
-        memcpy(pointers[i], &none, sizeof none);
+        memcpy(pointers[i], &missing, sizeof missing);
         EXPECT(ceduo_scene_check(s, NULL), !=, CEDUO_OK);
         memcpy(pointers[i], &was, sizeof was);
         EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_OK);

@@ -161,8 +161,8 @@ static double use_rows(const double *u, size_t n)
  * nothing. */
 TEST(rows_of_a_calibration)
 {
-    static const double same[DRAWN] = {0};
-    const double *draws[PLACES], *const none[] = {same};
+    static const double equal[DRAWN] = {0};
+    const double *draws[PLACES], *const none[] = {equal};
     struct line_random random = {.state = 1};
     for (size_t k = 0; k < PLACES; k++) {
         for (size_t i = 0; i < DRAWN; i++)

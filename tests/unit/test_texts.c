@@ -29,18 +29,18 @@ TEST(no_character_does_anything)
 /* Return the smallest number of digits with which %e reads back equal. */
 static int fewest_digits(double value)
 {
-    char room[64];
+    char buf[64];
     for (int digits = 1;; digits++) {
-        snprintf(room, sizeof room, "%.*e", digits - 1, value);
-        if (strtod(room, NULL) == value)
+        snprintf(buf, sizeof buf, "%.*e", digits - 1, value);
+        if (strtod(buf, NULL) == value)
             return digits;
     }
 }
 
 static void expect_shortest(double value)
 {
-    char room[CEDUO_NUMBER_ROOM];
-    const char *text = ceduo_number_shortest(value, room);
+    char buf[CEDUO_NUMBER_ROOM];
+    const char *text = ceduo_number_shortest(value, buf);
     double back = 0;
     assert_int_equal(ceduo_number_read(text, &back), CEDUO_NUMBER_GOOD);
     if (back != value)
@@ -72,10 +72,10 @@ TEST(numbers_are_short)
             expect_shortest(value);
         expect_shortest(((double)(mixed >> 40) - 8e6 + .5) / (double)(1 + (mixed & 1023)));
     }
-    char room[CEDUO_NUMBER_ROOM];
-    assert_string_equal(ceduo_number_shortest(NAN, room), "null");
-    assert_string_equal(ceduo_number_shortest(-INFINITY, room), "null");
-    assert_string_equal(ceduo_number_shortest(-0., room), "0");
+    char buf[CEDUO_NUMBER_ROOM];
+    assert_string_equal(ceduo_number_shortest(NAN, buf), "null");
+    assert_string_equal(ceduo_number_shortest(-INFINITY, buf), "null");
+    assert_string_equal(ceduo_number_shortest(-0., buf), "0");
 }
 
 TEST(numbers_are_read)

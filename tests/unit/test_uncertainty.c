@@ -233,7 +233,7 @@ TEST(the_effort_of_a_page_is_bounded)
     static const struct {
         double per_ha, diameter;
         uint64_t own;
-        size_t least, most; /* points */
+        size_t min, max; /* points */
     } cases[] = {{1000, .8, 1000, CEDUO_UNCERTAINTY_POINTS, CEDUO_UNCERTAINTY_POINTS},
                  {1000, .8, 16, CEDUO_UNCERTAINTY_POINTS, CEDUO_UNCERTAINTY_POINTS},
                  {1e5, 1, 400, CEDUO_UNCERTAINTY_MIN, CEDUO_UNCERTAINTY_POINTS - 1},
@@ -261,8 +261,8 @@ TEST(the_effort_of_a_page_is_bounded)
                                                 .brief = true,
                                                 .threads = threads};
             EXPECT(ceduo_effort_bound(&def, &own.work), ==, CEDUO_OK);
-            EXPECT(def.points, >=, cases[i].least);
-            EXPECT(def.points, <=, cases[i].most);
+            EXPECT(def.points, >=, cases[i].min);
+            EXPECT(def.points, <=, cases[i].max);
             if (def.points > 0) {
                 EXPECT(measure_effort(&def), <=, CEDUO_EFFORT_MAX);
                 EXPECT(measure_effort(&def), <=,
@@ -364,8 +364,8 @@ TEST(ends_of_a_normal_input)
     EXPECT_NEAR(ceduo_input_quantile(&input, 0), 38, 1e-9);
     EXPECT_NEAR(ceduo_input_quantile(&input, .5), 50, 1e-9);
     EXPECT_NEAR(ceduo_input_quantile(&input, 1), 62, 1e-9);
-    double z = (ceduo_input_quantile(&input, .25) - 50) / 4, least = erfc(3 / sqrt(2)) / 2;
-    EXPECT_NEAR(erfc(-z / sqrt(2)) / 2, least + (1 - 2 * least) / 4, 1e-12);
+    double z = (ceduo_input_quantile(&input, .25) - 50) / 4, min = erfc(3 / sqrt(2)) / 2;
+    EXPECT_NEAR(erfc(-z / sqrt(2)) / 2, min + (1 - 2 * min) / 4, 1e-12);
 }
 
 /* Uncertain stools beyond their shoots are limited to the shoots; the next evaluation starts from the scene's values. */

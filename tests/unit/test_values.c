@@ -21,28 +21,28 @@ static char *read_problems(const char *scene, const char *path, const char *valu
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_TEXT(set);
-    char *told = NULL;
+    char *messages = NULL;
     assert_true(ceduo_scene_load(&file, scene, NULL, 0, &problems));
     ceduo_text_format(&set, "%s=%s", path, value);
     if (ceduo_scene_set(&file, "--set", set.bytes, &problems)) {
         ceduo_scene_bind(&file, &problems);
-        told = strdup(ceduo_problems_print(&problems));
+        messages = strdup(ceduo_problems_print(&problems));
     }
-    return told;
+    return messages;
 }
 
 /* True if a value is in the range of `place`; other problems do not count. */
 static bool is_in_range(const char *path, const char *place, const char *value)
 {
-    LOCAL_BYTES char *told = NULL;
-    for (size_t i = 0; !told && i < LENGTH(scenes); i++)
-        told = read_problems(scenes[i], path, value);
-    if (!told)
+    LOCAL_BYTES char *messages = NULL;
+    for (size_t i = 0; !messages && i < LENGTH(scenes); i++)
+        messages = read_problems(scenes[i], path, value);
+    if (!messages)
         fail_msg("no scene here holds %s", path);
     static const char *const words[] = {" is below ", " is not above ", " is above ", " is not below ", " the spread reaches "};
     LOCAL_TEXT(start);
     ceduo_text_format(&start, ": %s: ", place);
-    const char *at = strstr(told, start.bytes);
+    const char *at = strstr(messages, start.bytes);
     bool in = true;
     for (size_t i = 0; at && i < LENGTH(words); i++) {
         const char *word = strstr(at, words[i]);
