@@ -5,7 +5,7 @@
 #   make deps       install missing packages        make check-all  sanitizers, valgrind, Slurm: slow
 #   make run        compute the paper's site        make bench      measure speed against a plain C loop
 #   make install    PREFIX, DESTDIR; uninstall      make stress     ten million random scenes: slow
-#   make bench ONLY=times|errors|NAME...            benches that need an idle machine, the others, or these; make tables writes them
+#   make bench ONLY=times|errors|NAME...            those for an idle machine, the others, or these; make tables writes them
 #   make dist       pack the sources                VARIANT=release|debug|asan|tsan|cov|fuzz
 #   make deb        build packages for Debian, in build/deb
 #   make man        write the program's tables into the manual; make samples: the output of its commands

@@ -155,7 +155,7 @@ TEST(without_information_the_law_stays_uniform)
     assert_false(p->determined || p->at_bound);
 }
 
-/* What fits better the faster, beyond the upper bound, too: the best value lies within the bounds. */
+/* If faster always fits better, beyond the upper bound as well, the best value still lies within the bounds. */
 TEST(chains_stay_within_their_bounds)
 {
     struct ceduo_scene scene = flight(0);

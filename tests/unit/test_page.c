@@ -159,8 +159,8 @@ static struct ceduo_page bars(size_t width)
     return page;
 }
 
-/* Columns are as wide as their cells; a name that is too long keeps its end, which tells it from the others; bars take what is
- * left, and without room the columns of the highest rank go, whole. */
+/* Columns are as wide as their cells. A name that is too long keeps its distinctive end; bars take the remaining width. In a
+ * narrow pane whole columns of the highest rank are dropped. */
 TEST(columns_find_their_widths)
 {
     LOCAL_BY(ceduo_page_free) struct ceduo_page wide = bars(40), narrow = bars(24), least = bars(14);
