@@ -8,7 +8,6 @@
 
 #include "base/language.h"
 #include "cli/arguments.h"
-#include "cli/say.h"
 #include "scene/ranges.h"
 #include "scene/schema.h"
 #include "study/goal.h"
@@ -234,7 +233,7 @@ static bool has_option(const struct form *form, const struct option_row *row)
     bool list = form->mode >= MODE_PARAMETERS, years = strcmp(row->name, "years") == 0, rows = strcmp(row->name, "rows") == 0;
     bool plot = strcmp(form->required, "plot") == 0, uncertainty = strcmp(row->name, "sensitivity") == 0;
     const struct option_row *format = find_option("format", 6);
-    bool format_goes = !plot && !(format->without >> form->mode & 1);
+    bool format_goes = !plot && !(format->conflicts >> form->mode & 1);
     if (form->mode == MODE_HELP)
         return strcmp(row->name, "language") == 0;
     if (form->mode == MODE_COLUMNS && (years || rows))
@@ -244,7 +243,7 @@ static bool has_option(const struct form *form, const struct option_row *row)
     if (row->mode != MODE_TERMINAL && !years && strcmp(row->name, "details") != 0 &&
         !(uncertainty && form->mode == MODE_REPORT))
         return false;
-    if (row->without >> (list ? MODE_SURVEY : form->mode) & 1)
+    if (row->conflicts >> (list ? MODE_SURVEY : form->mode) & 1)
         return false;
     const bool needs[] = {[NEEDS_NOTHING] = row != format || format_goes,
                           [NEEDS_GOAL] = false,
