@@ -20,7 +20,7 @@
 static const uint64_t rocks[STEPS] = {1024, 10240};
 
 /* The clearly best option after each step, or none. */
-struct said {
+struct leaders {
     size_t best[STEPS];
 };
 
@@ -33,8 +33,8 @@ static size_t clear_best(const struct ceduo_leader *leader)
     return leader->known && leader->rivals == 0 ? leader->best : NOBODY;
 }
 
-static void record(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsigned threads, size_t step, struct said *today,
-                   struct said *rotation)
+static void record(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsigned threads, size_t step,
+                   struct leaders *today, struct leaders *rotation)
 {
     struct ceduo_request q = ceduo_request_default(scene);
     struct ceduo_results answer;
@@ -54,9 +54,9 @@ static void record(const struct ceduo_scene *scene, struct ceduo_pool **pool, un
     ceduo_results_release(&answer);
 }
 
-static void count(const struct said *said, struct count *c)
+static void count(const struct leaders *leaders, struct count *c)
 {
-    size_t first = said->best[0], last = said->best[STEPS - 1];
+    size_t first = leaders->best[0], last = leaders->best[STEPS - 1];
     c->first += first != NOBODY;
     c->last += last != NOBODY;
     c->lost += first != NOBODY && last == NOBODY;
@@ -78,7 +78,7 @@ static size_t judge(const char *name, size_t seeds, unsigned threads)
     read_scene(&file, path);
     for (size_t seed = 1; seed <= seeds; seed++) {
         struct ceduo_pool *pool = NULL;
-        struct said now, over;
+        struct leaders now, over;
         file.scene.simulation.seed = seed;
         for (size_t step = 0; step < STEPS; step++)
             record(&file.scene, &pool, threads, step, &now, &over);
