@@ -3,7 +3,7 @@
  *   FAULT=memory  FAULT_AT=n  allocation n fails; with FAULT_ON=1 all later ones, too
  *   FAULT=ways                nothing fails; FAULT_WAYS names a file for the call path of each allocation
  *   FAULT=call    FAULT_AT=n  call n that opens, writes, syncs, closes, links, renames or removes fails with EIO
- * FAULT=kill FAULT_AT=n SIGKILL just before that call; counts only the first thread, because the order of others varies
+ *   FAULT=kill    FAULT_AT=n  SIGKILL just before that call; counts only the first thread: the order of others varies
  *   FAULT=short               every write takes one byte, or is interrupted
  *   FAULT=threads             no thread can be started
  * FAULT_FROM=name: count only calls of the first thread after a file of this name was renamed into place. FAULT_MARK names a
