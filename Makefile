@@ -5,16 +5,16 @@
 #   make deps       install missing packages        make check-all  sanitizers, valgrind, Slurm: slow
 #   make run        compute the paper's site        make bench      measure speed against a plain C loop
 #   make install    PREFIX, DESTDIR; uninstall      make stress     ten million random scenes: slow
-#   make bench ONLY=times|errors|NAME...            those that a busy machine spoils, the others, or these; make tables writes them
+#   make bench ONLY=times|errors|NAME...            those for an idle machine, the others, or these; make tables writes them
 #   make dist       pack the sources                VARIANT=release|debug|asan|tsan|cov|fuzz
 #   make deb        build packages for Debian, in build/deb
-#   make man        write the tables of the program into the manual; make samples: what its commands print
+#   make man        write the program's tables into the manual; make samples: the output of its commands
 #   make pictures   draw the pictures of README     V=1             print whole commands
 #   make po         bring the marked text of the sources and the manual into src/po/*.po, src/po/man/it.po
 #   make lint       run clang's warnings, cppcheck and clang-tidy
 #   make fuzz       run libFuzzer, FUZZ_SECONDS=600 for each reader
-#   make net        compare what the program prints with an earlier commit: BEFORE=v0.2 ONLY=plot
-#   make coverage   list branches of the library and src/io that no test takes, with the reason for each: slow
+#   make net        compare the program's output with an earlier commit's: BEFORE=v0.2 ONLY=plot
+#   make coverage   list branches of the library and src/io that no test takes, with their reasons: slow
 
 .DEFAULT_GOAL := all
 
@@ -32,7 +32,7 @@ deps:
 	if [ "$$(id -u)" != 0 ]; then echo "run as root: apt-get install$$missing"; exit 1; fi; \
 	apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing
 
-# The goals beside deps wait for the packages: with `make -j deps check`, each is made afterwards, by a make of its own.
+# Other goals wait for the packages: after `make -j deps check`, a new make builds each of them.
 LATER := $(if $(filter deps,$(MAKECMDGOALS)),$(filter-out deps,$(MAKECMDGOALS)))
 ifneq ($(LATER),)
 .NOTPARALLEL:
@@ -67,8 +67,8 @@ OPTIMISE_debug := -O0 -g
 # have line numbers.
 OPTIMISE_asan := -O1 -g1 -Dalways_inline=unused -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPTIMISE_tsan := -O1 -g1 -Dalways_inline=unused -fsanitize=thread
-# Conditions of the source are counted before the compiler moves any; a function inlined by force would be counted once for each
-# caller. Counts are not atomic, which would be seven times slower: each test has one processor, so one thread works at a time.
+# Conditions are counted before the compiler moves any; a forcibly inlined function would be counted once per caller. Counts
+# are not atomic, which would be seven times slower: each test has one processor, so that one thread runs at a time.
 OPTIMISE_cov = -O2 -g1 -Dalways_inline=unused -fcoverage-mapping $(call quoted,-fprofile-instr-generate=$(CURDIR)/$(BUILD)/counts/%m.profraw)
 OPTIMISE_fuzz := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 CFLAGS ?= $(OPTIMISE_$(VARIANT))
@@ -78,7 +78,7 @@ ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=of
 LIBRARY_LIBS := -lyaml -lunistring -lgsl -lgslcblas -lm
 LIBS = -lncursesw -ltinfo $(LIBRARY_LIBS)
 
-# Prints one short line for each file that is made; with V=1 make prints the command instead.
+# Prints one short line per file; with V=1 make prints the command instead.
 says = $(if $(filter 1,$(V)),,@$(if $(findstring s,$(firstword -$(MAKEFLAGS))),,printf '  %-4s %s\n' $(1) $(2) &&))
 compile = $(call says,CC,$<) $(CC) $(ALL_CFLAGS) $(DEFINES) -c -o $@ $<
 archive = $(call says,AR,$@) rm -f $@ && $(AR) rcsD $@ $^
@@ -99,7 +99,7 @@ PARTS := $(BUILD)/libparts.a
 PROGRAM := $(BUILD)/ceduo
 LANGUAGES := $(patsubst src/po/%.po,%,$(wildcard src/po/*.po))
 MO := $(LANGUAGES:%=$(BUILD)/locale/%/LC_MESSAGES/ceduo.mo)
-# The Italian manual is made from the English one and src/po/man/it.po; what is not translated stays English.
+# The Italian manual is made from the English one and src/po/man/it.po; untranslated text stays English.
 PAGES_IT := $(addprefix $(BUILD)/man/it/,ceduo.1 ceduo-output.5 ceduo-terminal.7 ceduo-workflows.7)
 
 .PHONY: all
@@ -111,7 +111,7 @@ ceduo: $(PROGRAM)
 $(LIBRARY): $(call object,$(CORE))
 	$(archive)
 
-# One set of objects for both. The shared library exports the functions that its headers name, and nothing else.
+# One set of objects for both libraries. The shared one exports exactly the functions of its headers.
 $(call object,$(CORE)): ALL_CFLAGS += -fPIC -fno-semantic-interposition
 $(SHARED): $(call object,$(CORE)) $(BUILD)/exports
 	$(link) -shared -Wl,-soname,$(SONAME) -Wl,--version-script,$(BUILD)/exports $(LIBRARY_LIBS)
@@ -131,12 +131,12 @@ $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(compile)
 
-# The program looks for installed profiles here, after those beside itself.
+# The program searches for profiles in its own folder, then here.
 c_string = "$(subst ?,\?,$(subst ",\",$(subst \,\\,$(1))))"
 $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,$(DATADIR)))
 $(BUILD)/src/cli/messages.o: DEFINES = -DCEDUO_LOCALEDIR=$(call quoted,$(call c_string,$(LOCALEDIR)))
 
-# Those of this variant alone: another may be being built.
+# Only this variant's: another one may be under construction.
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
 
 .PHONY: run
@@ -152,7 +152,7 @@ $(MO): $(BUILD)/locale/%/LC_MESSAGES/ceduo.mo: src/po/%.po
 	@mkdir -p $(@D)
 	$(call says,MO,$<) msgfmt -o $@ $<
 
-# All text that is marked, by the files in which it stands. "95 % of" is no format, though xgettext takes it for one.
+# All marked text, by file. "95 % of" is no format, although xgettext treats it as one.
 TEMPLATE := $(BUILD)/ceduo.pot
 .PHONY: $(TEMPLATE) po
 $(TEMPLATE):
@@ -192,15 +192,15 @@ man: $(TABLES)
 	@for table in search figures; do $(TABLES) $$table man/ceduo-output.5; done
 	@$(TABLES) keys man/ceduo-terminal.7
 
-# What the commands of the manual print, in the pages that show it.
+# Writes the output of the manual's commands into its pages.
 samples: all
 	@CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) BUILD=$(BUILD) tests/cli/test_pages.py --write
 
-# What the benches found last, in the pages that show it.
+# Writes the last results of the benches into the pages.
 tables:
 	@tests/bench/tables.py man/ceduo-accuracy.7 man/ceduo-validation.7
 
-# Draws the screens that README shows, by their keys, and writes the page that it shows.
+# Draws the screens of README from their keys, and writes its page.
 pictures: all
 	@CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) BUILD=$(BUILD) tests/cli/test_workflows.py --readme
 

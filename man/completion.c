@@ -7,7 +7,7 @@
 #include "cli/arguments.h"
 
 /* Return the words allowed as value of an option, or NULL. */
-static const char *words_of(const struct option_row *row)
+static const char *option_words(const struct option_row *row)
 {
     static char words[256];
     words[0] = '\0';
@@ -46,14 +46,14 @@ static bool takes_file(const struct option_row *row)
 
 /* ---- bash ---- */
 
-static void put_pattern(const struct option_row *row)
+static void print_pattern(const struct option_row *row)
 {
     if (row->letter)
         printf("-%c|", row->letter);
     printf("--%s)", row->name);
 }
 
-/* Print the names of the options of a scene, one per line, from a run of one rock. */
+/* Print the names of the options of a scene, one per line, by simulating one rock. */
 #define OPTIONS(scene)                                                                                                         \
     "-b -q -n 1 -f csv --columns option -- " scene " 2>/dev/null |\n"                                                          \
     "            awk 'NR > 1 && !seen[$0]++ {if (sub(/^\"/, \"\") && sub(/\"$/, \"\")) gsub(/\"\"/, \"\\\"\"); print}'"
@@ -143,7 +143,7 @@ static const char *const bash_head =
                       "    COMPREPLY=()\n"
                       "    case $prev in";
 
-/* Print the names of the scenes among the profiles, one per line, from the list of the program. */
+/* Print the names of the scenes among the profiles, one per line, from the program's list. */
 #define SCENES                                                                                                                 \
     "--list-profiles 2>/dev/null |\n"                                                                                          \
     "            awk 'match($0, / +scene  /) {print substr($0, 1, RSTART - 1)}'"
@@ -151,15 +151,15 @@ static const char *const bash_head =
     "--list-parameters 2>/dev/null |\n"                                                                                        \
     "            awk 'NR > 1 && !NF {exit} NR > 1 {print $1 \"" after "\"}'"
 
-static void put_bash(const struct option_row *rows, size_t n)
+static void print_bash(const struct option_row *rows, size_t n)
 {
     puts(bash_head);
     for (size_t i = 0; i < n; i++) {
         if (!rows[i].value || rows[i].value[0] == '[') /* no value, or an optional one */
             continue;
         fputs("    ", stdout);
-        put_pattern(&rows[i]);
-        const char *words = words_of(&rows[i]);
+        print_pattern(&rows[i]);
+        const char *words = option_words(&rows[i]);
         if (words)
             printf(" _ceduo_offer < <(printf '%%s\\n' %s); return;;\n", words);
         else if (takes_path(&rows[i]))
@@ -192,7 +192,7 @@ static void put_bash(const struct option_row *rows, size_t n)
 /* ---- zsh ---- */
 
 /* Print text in single quotes, with the characters [ ] : of _arguments escaped. */
-static void put_quoted(const char *text)
+static void print_quoted(const char *text)
 {
     for (; *text; text++) {
         if (*text == '\'')
@@ -204,13 +204,13 @@ static void put_quoted(const char *text)
     }
 }
 
-static void put_zsh_value(const struct option_row *row)
+static void print_zsh_value(const struct option_row *row)
 {
-    const char *words = words_of(row);
+    const char *words = option_words(row);
     if (!row->value)
         return;
     putchar(':');
-    put_quoted(row->value);
+    print_quoted(row->value);
     if (words)
         printf(":(%s)", words);
     else
@@ -222,7 +222,7 @@ static void put_zsh_value(const struct option_row *row)
               stdout);
 }
 
-static void put_zsh(const struct option_row *rows, size_t n)
+static void print_zsh(const struct option_row *rows, size_t n)
 {
     puts("#compdef ceduo\n"
          "_ceduo_parameters()\n"
@@ -265,9 +265,9 @@ static void put_zsh(const struct option_row *rows, size_t n)
             printf("'(-%c --%s)'{-%c,--%s%s}'[", rows[i].letter, rows[i].name, rows[i].letter, rows[i].name, equals);
         else
             printf("'--%s%s[", rows[i].name, equals);
-        put_quoted(rows[i].help);
+        print_quoted(rows[i].help);
         putchar(']');
-        put_zsh_value(&rows[i]);
+        print_zsh_value(&rows[i]);
         puts("' \\");
     }
     puts("    '*:scene:_ceduo_scenes'");
@@ -278,9 +278,9 @@ int main(int argc, char **argv)
     size_t n;
     const struct option_row *rows = ceduo_option_rows(&n);
     if (argc == 2 && strcmp(argv[1], "bash") == 0)
-        put_bash(rows, n);
+        print_bash(rows, n);
     else if (argc == 2 && strcmp(argv[1], "zsh") == 0)
-        put_zsh(rows, n);
+        print_zsh(rows, n);
     else
         return 2;
     return ferror(stdout) || fclose(stdout) ? 1 : 0;

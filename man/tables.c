@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Write a table into a manual page, between its two marks: tables TABLE PAGE [LANGUAGE]. The tables are keys (of the terminal
- * program, in LANGUAGE), goals and search (of --find), ranges (of uncertainty), figures (of JSON) and synopsis. */
+/* Write a table into a manual page, between its two marks: tables TABLE PAGE [LANGUAGE]. Tables: keys (of the terminal program,
+ * in LANGUAGE), goals and search (of --find), ranges (of uncertainty), figures (of JSON) and synopsis. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 #include "view/figures.h"
 
 /* Print text with the characters of troff escaped. */
-static void put(FILE *out, const char *text)
+static void print_escaped(FILE *out, const char *text)
 {
     for (; *text; text++) {
         if (*text == '\\')
@@ -32,39 +32,39 @@ static void put(FILE *out, const char *text)
 }
 
 /* Print the name of a key, with a single delimiter of mdoc escaped. */
-static void put_key(FILE *out, const char *word)
+static void print_key(FILE *out, const char *word)
 {
     fputs(" Ic ", out);
     if (strlen(word) == 1 && strchr(".,:;()[]?!|", word[0]))
         fputs("\\&", out);
-    put(out, word);
+    print_escaped(out, word);
 }
 
-static void put_keys(FILE *out)
+static void print_keys(FILE *out)
 {
     fputs(".Bl -tag -width \"Shift\\-Tab\" -compact\n", out);
     for (int i = 0; i < ACTION_COUNT; i++) {
         const struct action_info *a = &ceduo_actions[i];
         fputs(".It", out);
-        put_key(out, a->word);
+        print_key(out, a->word);
         if (a->word2[0]) {
             fputs(" ,", out);
-            put_key(out, a->word2);
+            print_key(out, a->word2);
         }
         fprintf(out, "\n%s\n", ceduo_translate_in(a->help));
     }
     fputs(".El\n", out);
 }
 
-static void put_goals(FILE *out)
+static void print_goals(FILE *out)
 {
     fputs(".Bl -tag -width Ds -compact\n", out);
     for (enum ceduo_goal i = 0; i < CEDUO_GOALS; i++) {
         const struct ceduo_goal_row *g = &ceduo_goals[i];
         fputs(".It Cm ", out);
-        put(out, g->word);
+        print_escaped(out, g->word);
         fputc('\n', out);
-        put(out, g->meaning);
+        print_escaped(out, g->meaning);
         fprintf(out, ",\n%s\n.Ar value%s%s", g->below ? "below" : "at most", ceduo_goal_is_share(i) ? "" : "\n",
                 ceduo_goal_is_share(i) ? "" : g->unit);
         fprintf(out, g->usual ? "%s\nby default %s.\n" : "%s\nwhich is required.\n", ceduo_goal_is_share(i) ? " ," : ",",
@@ -73,8 +73,8 @@ static void put_goals(FILE *out)
     fputs(".El\n", out);
 }
 
-/* 2400 to 2750; 0.85 to 1.15 times its value; brauner, dorren. */
-static void put_range(FILE *out, const struct range *r)
+/* Print a range: "2400 to 2750", "0.85 to 1.15 times its value" or "brauner, dorren". */
+static void print_range(FILE *out, const struct range *r)
 {
     if (r->kind == CEDUO_INPUT_WORDS)
         for (size_t i = 0; r->words[i]; i++)
@@ -82,16 +82,16 @@ static void put_range(FILE *out, const struct range *r)
     else
         fprintf(out, "%g to %g%s", r->lo, r->hi, r->kind == CEDUO_INPUT_FACTOR ? " times the value" : "");
     fputs(" (", out);
-    put(out, r->source);
+    print_escaped(out, r->source);
     fputs(").\n", out);
     if (r->measured) {
         fputs("What measures it: ", out);
-        put(out, r->measured);
+        print_escaped(out, r->measured);
         fputs(".\n", out);
     }
 }
 
-static void put_ranges(FILE *out)
+static void print_ranges(FILE *out)
 {
     size_t n;
     const struct range *ranges = ceduo_ranges(&n);
@@ -99,12 +99,12 @@ static void put_ranges(FILE *out)
     for (size_t i = 0; i < n; i++) {
         const char *end = strrchr(ranges[i].path, '.');
         fputs(".It Va ", out);
-        put(out, end + 1);
+        print_escaped(out, end + 1);
         fputs(strstr(ranges[i].path, "stools")   ? " of stools\n"
               : strstr(ranges[i].path, "trees[") ? " of shoots and trees\n"
                                                  : "\n",
               out);
-        put_range(out, &ranges[i]);
+        print_range(out, &ranges[i]);
     }
     fputs(".El\n", out);
 }
@@ -117,49 +117,49 @@ static bool is_listed(const struct ceduo_figure *figures)
     return list->title != NULL;
 }
 
-/* `within`: path of the object of the figures, with its dot. */
-static void put_figures(FILE *out, const char *within, const struct ceduo_figure *f)
+/* `prefix`: path of the object that holds the figures, with its dot. */
+static void print_figures(FILE *out, const char *prefix, const struct ceduo_figure *f)
 {
     for (; !ceduo_figure_is_end(f); f++) {
         if (!f->key && !is_listed(f->of))
-            put_figures(out, within, f->of);
+            print_figures(out, prefix, f->of);
         if (!f->key)
             continue;
-        fprintf(out, ".It Va %s%s\n", within, f->key);
-        put(out, f->meaning);
+        fprintf(out, ".It Va %s%s\n", prefix, f->key);
+        print_escaped(out, f->meaning);
         fprintf(out, "%s%s", f->unit[0] ? "; " : "", f->unit);
         if (f->null) {
             fputs("; null if ", out);
-            put(out, f->null);
+            print_escaped(out, f->null);
         }
         fputs(".\n", out);
         if (f->of && !is_listed(f->of)) {
             char path[256];
-            snprintf(path, sizeof path, "%s%s.", within, f->key);
-            put_figures(out, path, f->of);
+            snprintf(path, sizeof path, "%s%s.", prefix, f->key);
+            print_figures(out, path, f->of);
         }
     }
 }
 
-static void put_figure_lists(FILE *out)
+static void print_figure_lists(FILE *out)
 {
     for (const struct ceduo_figure_list *list = ceduo_figure_lists; list->title; list++) {
         fprintf(out, ".Pp\n%s:\n.Bl -tag -width \"reach_probability\" -compact\n", list->title);
-        put_figures(out, "", list->figures);
+        print_figures(out, "", list->figures);
         fputs(".El\n", out);
     }
 }
 
-static void put_search(FILE *out)
+static void print_search(FILE *out)
 {
     fputs(".Bl -tag -width \"reach_probability\" -compact\n", out);
-    put_figures(out, "", ceduo_find_figures);
+    print_figures(out, "", ceduo_find_figures);
     fputs(".El\n", out);
 }
 
-/* ---- the synopsis ---- */
+/* ---- synopsis ---- */
 
-/* A form of the command line: the option of its mode, or several with | between them, and the option that it needs. */
+/* A form of the command line: the option of its mode, or several separated by |, and the option that it needs. */
 struct form {
     enum mode mode;
     const char *required, *more, *operand;
@@ -188,10 +188,10 @@ static const struct option_row *find_option(const char *name, size_t n)
 }
 
 /* Print a value of the help in mdoc: capitals are arguments, small letters are literal. */
-static void put_value(FILE *out, const char *value)
+static void print_value(FILE *out, const char *value)
 {
     bool literal = strchr(value, '|') || !value[0];
-    const char *before = ""; /* no blank may come before the next part */
+    const char *before = ""; /* no blank before the first part */
     if (literal)
         fputs(" Cm", out);
     for (size_t n; *value; value += n) {
@@ -218,18 +218,18 @@ static void put_value(FILE *out, const char *value)
 }
 
 /* `macro`: text before the option. */
-static void put_option(FILE *out, const char *macro, const struct option_row *row, bool value)
+static void print_option(FILE *out, const char *macro, const struct option_row *row, bool value)
 {
     if (row->letter)
         fprintf(out, "%sFl %c", macro, row->letter);
     else
         fprintf(out, "%sFl -%s", macro, row->name);
     if (value && row->value)
-        put_value(out, row->value);
+        print_value(out, row->value);
 }
 
 /* True if a form may have an option. Forms that print a list or a stand have the options of --survey. */
-static bool takes(const struct form *form, const struct option_row *row)
+static bool has_option(const struct form *form, const struct option_row *row)
 {
     bool list = form->mode >= MODE_PARAMETERS, years = strcmp(row->name, "years") == 0, rows = strcmp(row->name, "rows") == 0;
     bool plot = strcmp(form->required, "plot") == 0, uncertainty = strcmp(row->name, "sensitivity") == 0;
@@ -267,39 +267,39 @@ static int compare_options(const void *a, const void *b)
     return x->letter ? x->letter - y->letter : strcmp(x->name, y->name);
 }
 
-static void put_form(FILE *out, const struct form *form)
+static void print_form(FILE *out, const struct form *form)
 {
     size_t count, n = 0;
     const struct option_row *rows = ceduo_option_rows(&count), *taken[64];
     fputs(".Nm\n", out);
     for (const char *name = form->required; *name; name += *name == '|') {
         const struct option_row *row = find_option(name, strcspn(name, "|"));
-        put_option(out, name == form->required ? "." : " | ", row, true);
+        print_option(out, name == form->required ? "." : " | ", row, true);
         fputs(strstr(row->help, "repeated") ? " ..." : form->mode == MODE_SURVEY ? " | Fl -survey -template" : "", out);
         name += strcspn(name, "|");
     }
     fputs(form->required[0] ? "\n" : "", out);
     if (form->more) {
-        put_option(out, ".", find_option(form->more, strlen(form->more)), true);
+        print_option(out, ".", find_option(form->more, strlen(form->more)), true);
         fputc('\n', out);
     }
     for (size_t i = 0; i < count; i++)
-        if (takes(form, &rows[i]))
+        if (has_option(form, &rows[i]))
             taken[n++] = &rows[i];
     qsort(taken, n, sizeof *taken, compare_options);
     for (size_t i = 0; i < n; i++) {
-        put_option(out, ".Op ", taken[i],
-                   strcmp(taken[i]->name, "years") != 0 || (form->mode != MODE_FIND && form->mode != MODE_COLUMNS));
+        print_option(out, ".Op ", taken[i],
+                     strcmp(taken[i]->name, "years") != 0 || (form->mode != MODE_FIND && form->mode != MODE_COLUMNS));
         fputc('\n', out);
     }
     if (form->operand)
         fprintf(out, "%s\n", form->operand);
 }
 
-static void put_synopsis(FILE *out)
+static void print_synopsis(FILE *out)
 {
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++)
-        put_form(out, &forms[i]);
+        print_form(out, &forms[i]);
 }
 
 int main(int argc, char **argv)
@@ -307,8 +307,8 @@ int main(int argc, char **argv)
     static const struct {
         const char *name;
         void (*put)(FILE *out);
-    } tables[] = {{"keys", put_keys},     {"goals", put_goals},          {"ranges", put_ranges},
-                  {"search", put_search}, {"figures", put_figure_lists}, {"synopsis", put_synopsis}};
+    } tables[] = {{"keys", print_keys},     {"goals", print_goals},          {"ranges", print_ranges},
+                  {"search", print_search}, {"figures", print_figure_lists}, {"synopsis", print_synopsis}};
     if (argc != 3 && argc != 4)
         return 2;
     if (argc == 4) {

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Do the tests notice when a line is wrong? tests/changes.py [WORD...] puts each change of changes.txt (those whose block holds a
-word) into a copy of the tree, builds what depends on it and runs the tests named, until one test fails. Fails where none does. The
-tests must pass before: one that fails already seems to notice everything. Each core has a copy; changes of a file follow each other
-in the same one, so that what is built for one change serves the next."""
+"""Check that the tests notice a wrong line. tests/changes.py [WORD...] applies each change of changes.txt (of blocks that
+contain a word) to a copy of the tree, builds it and runs the named tests until one fails. Fails if none does. The tests must
+pass before: a test that already fails would notice everything. Each core has a copy. Changes of one file run in the same copy,
+so that a build serves several."""
 import itertools
 import os
 import queue
@@ -21,7 +21,7 @@ TAPS = "build/release/tests"
 
 
 def failing(tree, test):
-    """The first test that fails in this file; make builds what it needs."""
+    """Return the first test that fails in this file; make builds what it needs."""
     tap = tree / TAPS / f"{test}.tap"
     tap.unlink(missing_ok=True)
     done = subprocess.run(["make", f"{TAPS}/{test}.tap"], cwd=tree, check=False, text=True, stdout=subprocess.PIPE,
@@ -33,7 +33,7 @@ def failing(tree, test):
 
 
 def noticed(tree, name, old, new, tests):
-    """By which test, or why the change cannot be tried."""
+    """Return the test that noticed the change, or why the change cannot be tried."""
     path = tree / name
     text = path.read_text(encoding="utf-8") if path.exists() else ""
     if text.count(old) != 1:
@@ -49,14 +49,14 @@ def noticed(tree, name, old, new, tests):
 
 
 def changes():
-    """File, line, what is put in its place and tests of each."""
+    """Yield file, line, replacement and tests of each change."""
     for block in Path(__file__).with_suffix(".txt").read_text(encoding="utf-8").strip().split("\n\n"):
         if not block.startswith("#"):
             yield [re.sub(r"^[-+] ", "", line) for line in block.splitlines()]
 
 
 def try_file(trees, changes_of_file):
-    """Tries the changes of one file in a tree that is free; returns how many no test noticed."""
+    """Try the changes of one file in a free tree; return how many no test noticed."""
     tree, missed = trees.get(), 0
     try:
         for name, old, new, tests in changes_of_file:

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines and branches of the rooms of PARTS that the tests have gone through: tests/coverage.py BUILD
+"""Line and branch coverage of the rooms of PARTS: tests/coverage.py BUILD
 
-BUILD is the folder of a build with clang's counters whose tests were run. A branch is one way out of a condition of the source
-or one case of a switch; what a macro has is counted where it is defined. One that no test took has to be explained by a comment
-on its line or the one before, /* untaken: TAG */, or /* untaken 3: TAG */ of three; one that is not is named and the status is
-1. What is explained and taken all the same is named, too.
+BUILD is the folder of a build with clang's counters, after its tests. A branch is one outcome of a condition in the source, or
+a case of a switch; a macro is counted at its definition. An untaken branch needs a comment on its line or the one before, /*
+untaken: TAG */, or /* untaken 3: TAG */ for three. Unexplained ones are reported, with status 1; so are needless comments.
 """
 import json
 import re
@@ -20,17 +19,17 @@ PARTS = ("src/base/", "src/scene/", "src/core/", "src/study/", "src/io/")
 
 class File:
     def __init__(self):
-        self.ways = defaultdict(lambda: [0, 0])  # line and column of each condition -> how often it was true, and false
-        self.lines = 0, 0  # that were reached, and all
+        self.ways = defaultdict(lambda: [0, 0])  # line and column of each condition -> number of true and false outcomes
+        self.lines = 0, 0  # reached, and all
 
     def add(self, branch):
-        """An inline function or a macro is in several objects and places."""
+        """Add counts: an inline function or a macro is in several objects and places."""
         counts = self.ways[branch[0], branch[1]]
         counts[0] += branch[4]
         counts[1] += branch[5]
 
     def missed(self):
-        """Number of a line -> ways out of its conditions that nobody took, in words."""
+        """Return line number -> untaken outcomes of its conditions, in words."""
         found = defaultdict(list)
         for (line, column), counts in sorted(self.ways.items()):
             found[line] += [f"{column} {way}" for way, count in zip(("true", "false"), counts) if count == 0]
@@ -38,7 +37,7 @@ class File:
 
 
 def read(build):
-    """Path of each file -> File."""
+    """Return path of each file -> File."""
     counts = build / "all.profdata"
     subprocess.run(["llvm-profdata", "merge", "-sparse", "-o", counts, *(build / "counts").glob("*.profraw")], check=True)
     done = subprocess.run(["llvm-cov", "export", "-instr-profile", counts, build / "libceduo.so"], stdout=subprocess.PIPE,
@@ -55,7 +54,7 @@ def read(build):
     return {path: file for path, file in files.items() if path.startswith(PARTS)}
 
 
-# ---- what is explained ----
+# ---- explanations ----
 
 TAGS = {
     "memory": "an allocation fails just here; the tests of faults make each fail, in a build that does not count",
@@ -76,7 +75,7 @@ MARK = re.compile(r"/\* untaken(?: (\d+))?: (\w+) \*/")
 
 
 def marks(path):
-    """Number of a line -> (branches, tag) of the mark on it, or alone on the line before it."""
+    """Return line number -> (branches, tag) of the mark on it, or alone on the line before it."""
     found = {}
     for number, text in enumerate((ROOT / path).read_text().splitlines(), 1):
         mark = MARK.search(text)
@@ -104,7 +103,7 @@ def report(files):
 
 
 def judge(files):
-    """Prints lines with branches that nobody took and nothing explains, and marks that are not needed; true if all is explained."""
+    """Print lines with unexplained untaken branches, and needless marks; true if there are none."""
     good, explained = True, defaultdict(int)
     for path, file in sorted(files.items()):
         reasons, missed = marks(path), file.missed()

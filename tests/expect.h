@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Comparisons that say what the values were. A failing one ends the test, as cmocka's own do; the values in its message are
- * taken anew. */
+/* Comparisons that print both values. A failing one ends the test, like cmocka's own. The message evaluates the values
+ * again. */
 #ifndef EXPECT_H
 #define EXPECT_H
 
@@ -52,11 +52,11 @@ static inline struct shown shown_unsigned(unsigned long long value)
             fail_msg("%s is %s, wanted %s %s, which is %s", #left, SHOWN(left), #op, #right, SHOWN(right));                    \
     } while (0)
 
-/* |left - right| <= most; false where either is NaN. */
-#define EXPECT_NEAR(left, right, most)                                                                                         \
+/* |left - right| <= most; false if either is NaN. */
+#define EXPECT_NEAR(left, right, max)                                                                                          \
     do {                                                                                                                       \
-        if (!(fabs((left) - (right)) <= (most)))                                                                               \
-            fail_msg("%s is %s, wanted %s, which is %s, within %s", #left, SHOWN(left), #right, SHOWN(right), SHOWN(most));    \
+        if (!(fabs((left) - (right)) <= (max)))                                                                                \
+            fail_msg("%s is %s, wanted %s, which is %s, within %s", #left, SHOWN(left), #right, SHOWN(right), SHOWN(max));     \
     } while (0)
 
 /* |value - expected| <= relative |expected| */
@@ -66,7 +66,7 @@ static inline void expect_relative(double value, double expected, double relativ
         fail_msg("%.17g is not %.17g within %g of it", value, expected, relative);
 }
 
-/* The next of the words that stand between bars, from where the last one ended: false where there is none. */
+/* Copy the next word between bars and advance *words; false at the end. */
 static inline bool next_word(const char **words, char word[64])
 {
     int n = (int)strcspn(*words, "|");
@@ -76,7 +76,7 @@ static inline bool next_word(const char **words, char word[64])
     return more;
 }
 
-/* What is applied to each of up to 12 arguments, with one that is the same for all. */
+/* Apply a macro to each of up to 12 arguments, with a constant first argument. */
 #define EACH_1(apply, with, a)                                                apply(with, a)
 #define EACH_2(apply, with, a, ...)                                           apply(with, a) EACH_1(apply, with, __VA_ARGS__)
 #define EACH_3(apply, with, a, ...)                                           apply(with, a) EACH_2(apply, with, __VA_ARGS__)
@@ -101,26 +101,26 @@ static inline bool next_word(const char **words, char word[64])
 #define EXPECT_FIELD_SAME(both, field)             WITH_UNWRAPPED(EXPECT_FIELD_SAME_IN, UNWRAP both, field)
 #define EXPECT_NOT_KNOWN(unused, value)            assert_true(isnan(value));
 
-/* EXPECT_IS(way, (x, 500), (end, CEDUO_AT_REST)): fields of one thing; == each. */
+/* EXPECT_IS(end, (x, 500), (status, CEDUO_AT_REST)): compare members of one object with ==. */
 #define EXPECT_IS(of, ...)                                                                                                     \
     do {                                                                                                                       \
         EACH(EXPECT_FIELD, of, __VA_ARGS__)                                                                                    \
     } while (0)
 
-/* EXPECT_SAME(a, b, x, z): these fields are equal in both. */
+/* EXPECT_SAME(a, b, x, z): these members are equal in both. */
 #define EXPECT_SAME(first, second, ...)                                                                                        \
     do {                                                                                                                       \
         EACH(EXPECT_FIELD_SAME, (first, second), __VA_ARGS__)                                                                  \
     } while (0)
 
-/* ROWS(EXPECT_NEAR, (a, 1, .1), (b, 2, .1)): a table, each row of which goes to the same function or macro. */
+/* ROWS(EXPECT_NEAR, (a, 1, .1), (b, 2, .1)): pass each row to the same function or macro. */
 #define ROW(function, row) function row;
 #define ROWS(function, ...)                                                                                                    \
     do {                                                                                                                       \
         EACH(ROW, function, __VA_ARGS__)                                                                                       \
     } while (0)
 
-/* None of them is known: NaN. */
+/* All arguments are NaN. */
 #define EXPECT_NAN(...)                                                                                                        \
     do {                                                                                                                       \
         EACH(EXPECT_NOT_KNOWN, , __VA_ARGS__)                                                                                  \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A temporary folder for a test, which goes with all that is in it. */
+/* A temporary folder for a test, removed with its content. */
 #ifndef FOLDER_H
 #define FOLDER_H
 
@@ -27,13 +27,13 @@ static inline int folder_remove_one(const char *path, const struct stat *about, 
     return remove(path);
 }
 
-/* What the tear-down of a test returns. */
+/* Remove the folder; return the result of a tear-down. */
 static inline int folder_remove(void)
 {
     return nftw(folder, folder_remove_one, 16, FTW_DEPTH | FTW_PHYS);
 }
 
-/* For tests that need nothing else in it. */
+/* Set-up for tests that need an empty folder. */
 static inline int folder_set_up(void **state)
 {
     (void)state;
@@ -52,7 +52,7 @@ static inline void in_folder(char path[256], const char *name)
     snprintf(path, 256, "%s/%s", folder, name);
 }
 
-/* A folder in it. */
+/* Make a folder inside it. */
 static inline void make_folder(const char *name)
 {
     char path[256];
@@ -60,7 +60,7 @@ static inline void make_folder(const char *name)
     assert_int_equal(mkdir(path, 0700), 0);
 }
 
-/* With the folder in which a user's own profiles are looked for; one of them is a folder. */
+/* Set-up with a folder of the user's own profiles; one profile is a folder. */
 static inline int folder_set_up_profiles(void **state)
 {
     folder_set_up(state);
@@ -71,7 +71,7 @@ static inline int folder_set_up_profiles(void **state)
     return 0;
 }
 
-/* A file in it; nothing waits for the disk. */
+/* Write a file inside it, without waiting for the disk. */
 static inline void put(const char *name, const char *text)
 {
     char path[256];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* So many where FULL is in the environment, as in `make check-all`; fewer in `make check`, which is to be short. */
+/* Repeat counts: `full` if FULL is set, as in `make check-all`; otherwise fewer, so that `make check` is short. */
 #ifndef FULL_H
 #define FULL_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a test takes is freed at the end of its block: LOCAL(ceduo_run, run) = …; objects that lie in the block:
- * LOCAL_BY(ceduo_scene_release) struct scene_file file = …; and memory: LOCAL_BYTES char *text = …; */
+/* Free a variable at the end of its block: LOCAL(ceduo_run, run) = …; release an object on the stack:
+ * LOCAL_BY(ceduo_scene_release) struct scene_file file = …; free memory: LOCAL_BYTES char *text = …; */
 #ifndef LOCAL_H
 #define LOCAL_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs the tests of one file: a program has those of a folder, and is called by the name of the file. As "all" it runs each. */
+/* Run the tests of one file, named by the program's own name. A program holds the tests of one folder; as "all" it runs each
+ * file. */
 #include "test.h"
 
 #include <stdio.h>
@@ -9,7 +10,7 @@
 #define GROUPS_MAX 100
 #define TESTS_MAX  1000
 
-/* Tests of one file. */
+/* The tests of one file. */
 static struct group {
     const char *file;
     struct CMUnitTest *tests;
@@ -20,8 +21,8 @@ static struct group {
 static struct CMUnitTest tests[TESTS_MAX];
 static size_t groups_count, tests_count;
 
-/* Returns the group of a file, whose tests are added one after the other. */
-static struct group *group_of(const char *file)
+/* Return the group of a file; the tests of a file are added in a row. */
+static struct group *find_group(const char *file)
 {
     if (groups_count == 0 || strcmp(groups[groups_count - 1].file, file) != 0) {
         assert_true(groups_count < GROUPS_MAX);
@@ -34,18 +35,18 @@ void test_add(const char *file, const char *name, CMUnitTestFunction test, CMFix
               CMFixtureFunction tear_down)
 {
     assert_true(tests_count < TESTS_MAX);
-    group_of(file)->count++;
+    find_group(file)->count++;
     tests[tests_count++] = (struct CMUnitTest){name, test, set_up, tear_down, NULL};
 }
 
 void test_around(const char *file, CMFixtureFunction set_up, CMFixtureFunction tear_down)
 {
-    struct group *group = group_of(file);
+    struct group *group = find_group(file);
     group->set_up = set_up;
     group->tear_down = tear_down;
 }
 
-/* Runs the tests of a group and returns how many failed; with TEST_FIRST in the environment none after the first that fails. */
+/* Run the tests of a group and return the number of failures. If TEST_FIRST is set, stop after the first failure. */
 static int run_group(const struct group *group, const char *name)
 {
     size_t step = getenv("TEST_FIRST") ? 1 : group->count;

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A net under changes that should change nothing: all that the program prints, against the program of a commit before.
+"""Compare the whole output of the program with that of an earlier commit, for changes without effect.
 
 tests/net.py [--before COMMIT] [--program FILE] [--against FILE] [--only PATTERN] [--list]
 
-Both programs run the same cases in the same folder on the scenes of this tree. Standard output, standard error, exit
-status and every file left behind are compared byte for byte, and each case that differs is shown with the first lines of
-its difference. The status is 1 where any differs, 2 where they cannot be compared. The program of before is built once
-for each commit and kept in build/before. Without --before it is that of HEAD, or of the commit before it where nothing is
-changed since HEAD.
+Both programs run the same cases in the same folder on the scenes of this tree. Standard output, standard error, exit status and
+all files are compared byte for byte; each differing case is shown with the first lines of its difference. The status is 1 if
+any differs, 2 if they cannot be compared. The earlier program is built once per commit and kept in build/before. The default of
+--before is HEAD, or the commit before it if nothing has changed since HEAD.
 """
 import argparse
 import difflib
@@ -24,7 +23,7 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-sys.dont_write_bytecode = True  # a tree that is clean stays so
+sys.dont_write_bytecode = True  # keeps a clean tree clean
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "tests/cli"), str(ROOT / "tests/tui")]
 import play  # noqa: E402
@@ -35,23 +34,23 @@ import test_rotation  # noqa: E402
 import test_screens  # noqa: E402
 from harness import PATIENCE, PROFILES  # noqa: E402
 
-# Not compared: what differs from run to run; and the version wherever it stands but in --version, which a new one alone
-# would make differ in every JSON.
+# Not compared: values that vary between runs; and the version except in --version, because a new one
+# would change every JSON.
 BLANKED = [(re.compile(pattern), blank) for pattern, blank in (
     (rb'"seconds": [-+.0-9e]+', b'"seconds": -'),
     (rb'"version": "[^"]*"', b'"version": "-"'))]
 
 SHOWN = 20  # lines of a difference
-LOOKED = 400  # lines from the first that differs on: more would take long to lay beside each other
-WIDE = 160  # a line that is longer is shown in parts
+LOOKED = 400  # lines compared from the first difference on: more would take long to align
+WIDE = 160  # longer lines are split
 
-# The programs, as `make` lays them out.
+# the programs, as `make` places them
 TOOLS = {"ceduo": "ceduo", "@tables": "tests/tables", "@completion": "man/completion"}
 
 
 class Case:
-    """Commands that are run one after the other in a folder with some files. A command is ceduo's words, or begins with
-    the name of another tool."""
+    """Commands that run in sequence in a folder with some files. A command is ceduo's words, or begins with the name of another
+    tool."""
 
     def __init__(self, name, *commands, files=None, stdin=b"", **env):
         self.name, self.commands, self.files, self.stdin, self.env = name, commands, files or {}, stdin, env
@@ -69,8 +68,7 @@ CSV_SLOPE = SMALL[:SMALL.index("slope:")] + "slope: {csv: line.csv}\n" + SMALL[S
 
 
 def easy(text):
-    """The same with rocks that touch the ground a few times at most: they are flown at once, so that every key can be
-    waited for."""
+    """Return the scene with rocks that touch the ground at most a few times: fast, so that every key can be awaited."""
     for old, new in (("vx_m_s: 1", "vx_m_s: 12"), ("[[0, 80], [60, 30], [100, 0]]", "[[0, 120], [60, 40], [100, 0]]")):
         if old not in text:
             raise ValueError(old)
@@ -83,7 +81,7 @@ EASY = {"easy.yaml": easy(play.FAST), "easy-options.yaml": easy(play.OPTIONS), "
 
 
 def by_index(name):
-    """A shipped scene that is computed by the index alone."""
+    """Return a shipped scene computed by the index alone."""
     return play.in_the_index((PROFILES / f"scenes/{name}.yaml").read_text())
 
 
@@ -93,8 +91,8 @@ SIZES = [f"{width} {height}" for width, height in test_screens.SIZES]
 
 
 def script(text):
-    """A script that waits after each key. 'dump' takes the screen and its roles; 'find WORD' searches, 'set VALUE' types
-    into the field, 'clear' takes the message away. ' | ' ends a line, too."""
+    """Return a script that waits after each key. 'dump' saves the screen and its roles; 'find WORD' searches, 'set VALUE' types
+    into the field, 'clear' dismisses the message. ' | ' ends a line, too."""
     lines, size, taken = ["wait idle"], "80x24", 0
     for line in text.strip().replace(" | ", "\n").split("\n"):
         word, _, rest = line.strip().partition(" ")
@@ -127,12 +125,12 @@ def every_view(sizes=SIZES, charsets=1, views="123456"):
 
 
 def every_key(view):
-    """Each key of the program once, with what is over the view closed again."""
+    """Return each key of the program once, closing any popup after it."""
     keys = [word for _, word, word2, _, _ in play.actions() for word in (word, word2) if word and word not in ("q", "F10")]
     return "\n".join(f"key {view}\nkey {key}\ndump\nkey Esc Esc" for key in keys + ["q"])
 
 
-FORMS = {  # what is typed into fields, and what comes of it
+FORMS = {  # input in fields, and its results
     "stand": "key 2 | find stools.per_ha | set 1000 | dump | find shoots[0] | set 3000 | dump | key u u Ctrl-R | dump"
              " | key Enter | dump | key Tab | dump",
     "rock": "key 3 | find rock.shape | key Enter Down | dump | key Enter | dump | key u | find rock.diameter_m"
@@ -290,7 +288,7 @@ def years():
     yield Case("years/index", ["--years", "0:26", "-s", "simulation.contact_model=index", *FEW, "rotation"])
 
 
-# ---- what is looked for, lists ----
+# ---- searches, lists ----
 
 def goals():
     stools = "forest[0].stand.stools.per_ha=100:5000"
@@ -317,7 +315,7 @@ def lists():
         yield Case(f"list/manual of {kind}", ["@tables", kind, page], files={page: (ROOT / "man" / page).read_text()})
 
 
-# ---- input, good and bad ----
+# ---- input, valid and invalid ----
 
 def both(name, scene, files, **more):
     return Case(name, ["--check", scene], ["-b", *FEW, scene], files=files, **more)
@@ -342,7 +340,7 @@ def standard_input():
 
 
 def faults():
-    """The bad input of the tests."""
+    """Return the bad input of the tests."""
     for i, (file, old, new, *words) in enumerate(test_input.CASES):
         yield both(f"fault/{i} {words[0]}", "scene.yaml", test_input.mutated(file, old, new)[0])
     for row, case in test_errors.CASES.items():
@@ -362,7 +360,7 @@ def faults():
 
 
 def all_cases():
-    """What takes longest comes first, so that the cores end together."""
+    """Return all cases, slowest first, so that the cores end together."""
     chapters = (screens, pictures, pages, years, goals, standard_input, faults, lists)
     return [case for chapter in chapters for case in chapter()]
 
@@ -370,7 +368,7 @@ def all_cases():
 # ---- running ----
 
 class Program:
-    """A program with its tools, put under names of its own into the folder where both are run."""
+    """A program with its tools, renamed in the folder of both runs."""
 
     def __init__(self, path, bed, name):
         self.paths = {}
@@ -380,7 +378,7 @@ class Program:
                 self.paths[tool] = shutil.copy(found, bed / f"build/release/{name}{tool}")
 
     def run(self, case, folder):
-        """What a case comes to: the name of each stream or file, and its bytes."""
+        """Return the result of a case: the name of each stream or file, and its bytes."""
         folder.mkdir()
         for name, content in case.files.items():
             (folder / name).write_bytes(content.encode() if isinstance(content, str) else content)
@@ -417,14 +415,14 @@ def blanked(data):
 # ---- showing ----
 
 def lines_of(data):
-    """As text in lines that can be shown: JSON and what else is long in parts."""
+    """Return text in printable lines: JSON and other long lines are split."""
     for line in data.decode("utf-8", "backslashreplace").removesuffix("\n").split("\n"):
         for part in re.sub(r",\s*", ",\n", line).split("\n") if line.startswith('{"') or len(line) > WIDE else [line]:
             yield "".join(c if c.isprintable() else ascii(c)[1:-1] for c in part)
 
 
 def difference(name, before, now):
-    """Lines that show how two streams or files differ; None is one that there is not."""
+    """Return lines that show the difference of two streams or files; None is a missing one."""
     if before is None or now is None:
         return [f"{name}: only {'now' if before is None else 'before'}"]
     both = [list(lines_of(data)) for data in (before, now)]
@@ -446,7 +444,7 @@ def show(case, before, now, names):
 
 
 def compare(cases, old, new):
-    """How many differ."""
+    """Return the number of differences."""
     start, differ, ends = time.monotonic(), 0, Counter()
     with tempfile.TemporaryDirectory(prefix="ceduo-net-") as folder:
         bed = Path(folder)
@@ -470,14 +468,14 @@ def compare(cases, old, new):
     return differ
 
 
-# ---- the program of before ----
+# ---- the earlier program ----
 
-# Of a make that called this; not for the one that builds what was before.
+# from a calling make; not for the build of the earlier program
 ABOVE = ("MAKEFLAGS", "MFLAGS", "MAKEOVERRIDES", "MAKELEVEL", "BUILD", "CFLAGS")
 
 
 class Unable(Exception):
-    """They cannot be compared."""
+    """The programs cannot be compared."""
 
 
 def output_of(*command, **options):
@@ -498,7 +496,7 @@ def commit_before(wanted):
 
 
 def built(commit):
-    """The program of a commit, built where it is not there yet."""
+    """Return the program of a commit, built if necessary."""
     place = ROOT / "build/before" / commit
     if not (place / "build/release/ceduo").exists():
         half = place.with_name(f"{commit}.{os.getpid()}")

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rows of a table in a file that anybody can add to. A column ends at "|", blanks around it are none of it but within double
- * quotes, where \n, \t, \", \\ and bytes such as \xc3 are as in C; # begins a comment, and == the next table. for (TABLE(row, "unit/typed.txt", "numbers")) row.at[0] … */
+/* Rows of a table in a text file. Columns end at "|"; blanks around them are dropped. Double quotes keep blanks, and in them
+ * \n, \t, \", \\ and \xc3 are as in C. # begins a comment, == the next table.
+ *   for (TABLE(row, "unit/typed.txt", "numbers")) row.at[0] … */
 #ifndef TABLE_H
 #define TABLE_H
 
@@ -12,7 +13,7 @@ struct table {
     FILE *file;
     size_t rows;
     char line[1024];
-    const char *at[TABLE_COLUMNS]; /* "": there is none */
+    const char *at[TABLE_COLUMNS]; /* "": missing */
 };
 
 static inline struct table table_open(const char *path, const char *title)
@@ -43,7 +44,7 @@ static inline char *table_unescaped(char *text)
     return text;
 }
 
-/* Without the blanks around it, or the quotes. */
+/* Strip the blanks around a column, or its quotes. */
 static inline const char *table_column(char *text)
 {
     text += strspn(text, " ");

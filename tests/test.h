@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* TEST(name) { … } is a test of cmocka; the tests of a file are run in the order of the source. */
+/* TEST(name) { … } is a test of cmocka. The tests of a file run in source order. */
 #ifndef TEST_H
 #define TEST_H
 
@@ -7,7 +7,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-/* cmocka wants the four above first */
+/* cmocka requires the four headers above */
 #include <cmocka.h>
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
@@ -16,7 +16,7 @@ void test_add(const char *file, const char *name, CMUnitTestFunction test, CMFix
               CMFixtureFunction tear_down);
 void test_around(const char *file, CMFixtureFunction set_up, CMFixtureFunction tear_down);
 
-/* Calls `set_up` before the first test of the file, and `tear_down` after the last. */
+/* Call `set_up` before the first test of the file and `tear_down` after the last. */
 #define AROUND_TESTS(set_up, tear_down)                                                                                        \
     __attribute__((constructor)) static void add_around(void)                                                                  \
     {                                                                                                                          \
@@ -24,7 +24,7 @@ void test_around(const char *file, CMFixtureFunction set_up, CMFixtureFunction t
     }                                                                                                                          \
     struct around_needs_a_semicolon
 
-/* With functions that are called before and after the test. */
+/* A test with its own set-up and tear-down. */
 #define TEST_WITH(name, set_up, tear_down)                                                                                     \
     static void name(void **state);                                                                                            \
     __attribute__((constructor)) static void add_##name(void)                                                                  \

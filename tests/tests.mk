@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Tests, benches and what else is checked. A test file has its tags in one of its first three lines, as in "tags: slow threads":
+# Tests, benches and other checks. One of a test file's first three lines may have tags, as in "tags: slow threads":
 #
-#   slow        starts first; `make quick` leaves it out
+#   slow        starts first; not in `make quick`
 #   quick       a script that is also in `make quick`, which has the tests of C
-#   brief       has to do with languages: .ci/run repeats it in Italian and German
+#   brief       depends on the language: .ci/run repeats it in Italian and German
 #   threads     uses threads: `make check-all` repeats it with a sanitizer for them
 #   full        only in `make check-all`, or with FULL=1
 #   uncounted   not in `make coverage`
 
 CORES := $(shell nproc 2>/dev/null || echo 1)
-# These goals use every core without -j. Many tests mostly wait, so there is one job more than there are cores.
+# These goals use every core without -j. Many tests mostly wait, so there is one more job than cores.
 ifneq ($(filter quick check check-% bench fuzz lint net,$(MAKECMDGOALS)),)
 ifeq ($(findstring jobserver,$(MAKEFLAGS)),)
 MAKEFLAGS += -j$(shell expr $(CORES) + 1)
@@ -23,11 +23,11 @@ SCRIPTS := $(wildcard tests/cli/test_*.py tests/cli/test_*.sh tests/tui/test_*.p
 UNIT := $(C_TESTS:tests/%.c=$(T)/%)
 tagged = $(shell grep -l '^..\? tags: .*\<$(1)\>' $(SCRIPTS) $(C_TESTS))
 taps = $(patsubst tests/%,$(T)/%.tap,$(patsubst %.c,%,$(1)))
-# Slow ones first, so that none runs alone at the end.
+# Slow tests first, so that none runs alone at the end.
 CHECKED = $(filter-out $(if $(FULL),,$(call tagged,full)),$(call tagged,slow) $(SCRIPTS) $(C_TESTS))
 
-# Arbitrary bytes for the readers and keys. `make check` uses the seeds and this many changes of them, always the same, check-all ten
-# times as many; `make fuzz` lets libFuzzer change them.
+# Random bytes for the readers and keys. `make check` uses the seeds and this number of fixed changes, check-all ten times this
+# number; in `make fuzz` libFuzzer changes them.
 FUZZERS := $(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 REPLAYS := $(FUZZERS:fuzz_%=$(T)/fuzz/replay_%)
 CHANGES_scene := 2000
@@ -48,7 +48,7 @@ check-scenes: all $(T)/cli/test_random_scenes.py.tap
 quick check check-brief check-threads check-scenes: # the last line is: N passed, N failed
 	@tests/summary $(filter %.tap,$^)
 
-# ---- tests of C: one program a folder, which runs the file after which it is called ----
+# ---- tests of C: one program per folder, which runs the test file named like the program ----
 
 OTHERS := tests/physics/bits.c tests/physics/constants.c # programs of test_bits.sh and test_constants.sh
 LINKED := $(call object,tests/main.c $(filter-out $(OTHERS),$(wildcard $(FOLDERS:%=tests/%/*.c))))
@@ -66,7 +66,7 @@ $(PROGRAMS): $(SUPPORT) $(PARTS) $(LIBRARY)
 $(UNIT):
 	@ln -sf all $@
 
-# The tests of memory put their own calls in the place of these.
+# The tests of memory replace these functions.
 WRAPPED := malloc calloc realloc aligned_alloc strdup realpath free pthread_create fsync ceduo_arena_alloc ceduo_arena_grow \
 	ceduo_arena_copy ceduo_arena_string ceduo_arena_vformat
 $(T)/memory/all: LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
@@ -77,10 +77,10 @@ $(UNIT:=.tap): %.tap: % FORCE
 $(call taps,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM) $(MO) $(PAGES_IT) FORCE
 	@CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) CC="$(CC)" BUILD=$(BUILD) tests/run $@ $<
 
-# These also compare what the tools print.
+# These also compare the output of the tools.
 $(T)/cli/test_net.py.tap $(T)/cli/test_manual.sh.tap: $(TABLES) $(COMPLETION)
 
-# Both install at the same time: neither may find half of what the other makes.
+# Both install at the same time: neither may find half-made files of the other.
 $(T)/cli/test_install.py.tap $(T)/cli/test_library.py.tap: $(SCRIPTS_COMPLETION)
 
 $(BUILD)/tests/%.o: DEFINES = -Itests
@@ -110,7 +110,7 @@ $(FUZZERS): fuzz_%: $(T)/fuzz/fuzz_%
 	    2>$<.log || { tail -40 $<.log; exit 1; }
 	@grep 'stat::number_of_executed_units\|cov:' $<.log | tail -2
 
-# Installs packages that a goal needs besides those of deps.
+# Installs packages that a goal needs in addition to deps.
 need = @+$(MAKE) --no-print-directory DEBIAN="$(1)" deps
 DEBIAN_FUZZ := clang libclang-rt-dev
 fuzz:
@@ -119,9 +119,9 @@ fuzz:
 
 # ---- other compilers and analysers ----
 
-# These checks of cppcheck are off: uninitialised variables of which only the address is taken, and memory kept by realloc
-# when a later one fails, both known to be correct here (-Wall, the sanitizers and the tests of failing allocations check
-# them too); two variables with the same initial value; NULL at the end of arguments, which POSIX has as a pointer.
+# These checks of cppcheck are off: uninitialised variables whose address alone is used, and memory kept by realloc if a later
+# one fails (both correct here, and checked by -Wall, the sanitizers and the tests of failing allocations); two variables with
+# the same initial value; NULL at the end of arguments, which is a pointer in POSIX.
 CPPCHECK := -q --error-exitcode=1 --std=c11 --enable=warning,performance,portability --inline-suppr \
 	--suppress=missingIncludeSystem --suppress=uninitvar --suppress=legacyUninitvar --suppress=memleak \
 	--suppress=duplicateAssignExpression --suppress=varFuncNullUB
@@ -133,9 +133,9 @@ lint:
 	cppcheck $(CPPCHECK) -D_GNU_SOURCE -Iinclude -Isrc src
 	find src -name '*.c' | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- $(CLANG_DEFINES) 2>/dev/null' tidy
 
-# Runs tests on a build that counts branches, then names the branches not taken that no comment explains. Tests of the screen
-# and of whole workflows are left out: what they take of these parts others take sooner, and they would take most of the time;
-# so are that of the house, which runs nothing, and that of the installed library, whose users have other compilers.
+# Runs tests on a build that counts branches, then reports untaken branches without a comment. Omits tests of the screen and of
+# workflows, which are slow and cover nothing more of these parts; the test of the house, which runs nothing; and that of the
+# installed library, which uses other compilers.
 COUNTED = $(call taps,$(filter-out tests/tui/% $(call tagged,uncounted),$(CHECKED)))
 COUNT = $(MAKE) --no-print-directory -j$(CORES) CC=clang VARIANT=cov
 coverage:
@@ -147,14 +147,14 @@ coverage:
 	@tests/coverage.py build/cov; explained=$$?; \
 	    tests/summary $(patsubst $(T)/%,build/cov/tests/%,$(COUNTED) $(REPLAYS:=.tap)) && exit $$explained
 
-# For changes that should leave all output as it was.
+# For changes that should not affect output.
 net: all $(TABLES) $(COMPLETION)
 	@CC="$(CC)" tests/net.py --program $(PROGRAM) $(if $(BEFORE),--before '$(BEFORE)') $(if $(ONLY),--only '$(value ONLY)')
 
 # ---- check-all ----
 
-# All of it takes two and a half hours on two cores. Each part leaves a log with the name of the commit; those that have passed on
-# this commit are not run again. ONLY='threads memory': these alone.
+# Takes two and a half hours on two cores. Each part leaves a log with the name of the commit; parts that have passed on this
+# commit are skipped. ONLY='threads memory': only these.
 PARTS_OF_ALL := check sanitizers scenes clang threads memory arm slurm dist deb lint
 .PHONY: check-all $(PARTS_OF_ALL:%=all-%)
 check-all:
@@ -168,14 +168,14 @@ all-sanitizers:
 	@+$(MAKE) --no-print-directory FULL=1 TEST_SECONDS=20000 VARIANT=asan check
 all-scenes:
 	@+$(MAKE) --no-print-directory SCENES=10000 TEST_SECONDS=20000 VARIANT=asan check-scenes
-all-clang: # its sanitizer tells of offsets to null pointers, gcc's does not
+all-clang: # its sanitizer reports offsets to null pointers, gcc's does not
 	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz FULL=1 replay
 all-threads:
 	@+$(MAKE) --no-print-directory VARIANT=tsan check-threads
 all-lint: lint
 
-# Runs these under valgrind: every scene as a batch, a picture, a report, years, a uncertainty, a search, and the terminal program with
-# a script. What is not known takes most of the time, and is asked of two of them.
+# Runs these under valgrind: every scene as a batch, a picture, a report, years, uncertainty, a search, and the terminal program
+# with a script. Uncertainty takes most of the time, and is computed for two scenes.
 VALGRIND := valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=definite,possible
 define IN_VALGRIND
 --batch -n 200 -s uncertainty=none $(wildcard profiles/scenes/*.yaml)
@@ -193,11 +193,11 @@ all-memory: all
 	    >$(BUILD)/valgrind.keys
 	echo "$$IN_VALGRIND" | xargs -d '\n' -P $(CORES) -I@ sh -c 'echo "@"; exec $(VALGRIND) $(PROGRAM) @ >/dev/null'
 
-# Another kind of processor.
+# Another processor architecture.
 all-arm:
 	tests/arm.sh
 
-# Runs the workflows again, with Slurm on one node for their job arrays; if Slurm cannot be started, it says why.
+# Runs the workflows again, with Slurm on one node for their job arrays; reports the reason if Slurm does not start.
 all-slurm: all
 	CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) tests/slurm.sh tests/cli/test_workflows.py || [ $$? = 77 ]
 
@@ -212,7 +212,7 @@ all-deb: deb
 
 # ---- stress and benches ----
 
-# The number of random scenes; each core runs a part of them.
+# Number of random scenes; each core runs a part.
 STRESS ?= 10000000
 .PHONY: stress bench
 stress: $(T)/physics/test_stress

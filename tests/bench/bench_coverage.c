@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How often the printed 95 % intervals hold the truth, on the paper's site.
+/* Count how often the printed 95 % intervals contain the truth, on the paper's site.
  *
- *   bench_coverage [REPEATS [ROCKS]]        default 1000 repeats of 1000 rocks, each with a seed of its own
+ *   bench_coverage [REPEATS [ROCKS]]        default 1000 repeats of 1000 rocks, each with its own seed
  *
- * Without forest, through the stems, and the differences between that wood and the same with half its stems. What is true is
- * taken from runs of many more rocks. CSV on stdout: `scatter` is the standard deviation of the figure over the repeats. Exit 1
- * where an interval of a mean, a probability or a difference holds what is true in fewer than 93 or more than 97 of 100 (from
- * 1000 repeats on; an interval of whole numbers, as for a percentile or a share near 1, holds it a little more often). */
+ * Three scenes: without forest, with the stems, and the difference between that forest and one with half its stems. The truth
+ * comes from runs of many more rocks. CSV on stdout; `scatter` is the standard deviation of the figure over the repeats. Exit 1
+ * if an interval of a mean, a probability or a difference contains the truth in fewer than 93 % or more than 97 % of at least
+ * 1000 repeats. An interval of whole numbers, for a percentile or a share near 1, contains it slightly more often. */
 #include <math.h>
 #include <stdio.h>
 
@@ -55,17 +55,17 @@ struct woods {
     struct paper_site site, half;
 };
 
-static struct figure about(double value, double se)
+static struct figure precision(double value, double se)
 {
     return (struct figure){value, value - CEDUO_Z95 * se, value + CEDUO_Z95 * se};
 }
 
-static struct ceduo_run *fly(const struct paper_site *site, const struct ceduo_option *option, uint64_t rocks)
+static struct ceduo_run *simulate(const struct paper_site *site, const struct ceduo_option *option, uint64_t rocks)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.option = option;
     def.rocks_most = rocks;
-    return fly_run(&def, rocks);
+    return simulate_run(&def, rocks);
 }
 
 static void read_run(const struct ceduo_run *run, struct figure *to)
@@ -73,26 +73,26 @@ static void read_run(const struct ceduo_run *run, struct figure *to)
     struct ceduo_arrivals a;
     if (ceduo_run_arrivals(run, 0, &a) != CEDUO_OK)
         fail("no memory");
-    to[0] = about(a.energy.mean, a.energy.se);
+    to[0] = precision(a.energy.mean, a.energy.se);
     to[1] = (struct figure){a.energy.p95, a.energy.p95_lo, a.energy.p95_hi};
     to[2] = (struct figure){a.reach.mean, a.reach.lo, a.reach.hi};
     to[3] = (struct figure){a.exceed.mean, a.exceed.lo, a.exceed.hi};
-    to[4] = about(a.energy_per_released.mean, a.energy_per_released.se);
+    to[4] = precision(a.energy_per_released.mean, a.energy_per_released.se);
     if (!isnan(a.contacts.mean))
-        to[5] = about(a.contacts.mean, a.contacts.se);
+        to[5] = precision(a.contacts.mean, a.contacts.se);
 }
 
-static void fly_all(struct woods *w, uint64_t seed, uint64_t rocks, struct figure figures[FIGURES])
+static void simulate_all(struct woods *w, uint64_t seed, uint64_t rocks, struct figure figures[FIGURES])
 {
     w->site.scene.simulation.seed = seed;
-    struct ceduo_run *bare = fly(&w->site, NULL, rocks), *wood = fly(&w->site, &w->site.option, rocks),
-                     *half = fly(&w->site, &w->half.option, rocks);
+    struct ceduo_run *bare = simulate(&w->site, NULL, rocks), *wood = simulate(&w->site, &w->site.option, rocks),
+                     *half = simulate(&w->site, &w->half.option, rocks);
     read_run(bare, &figures[BARE_MEAN]);
     read_run(wood, &figures[WOOD_MEAN]);
     struct ceduo_difference d = ceduo_run_difference(half, wood, 0);
-    figures[LESS_REACH] = about(d.reach.mean, d.reach.se);
-    figures[LESS_EXCEED] = about(d.exceed.mean, d.exceed.se);
-    figures[LESS_RELEASED] = about(d.energy_per_released.mean, d.energy_per_released.se);
+    figures[LESS_REACH] = precision(d.reach.mean, d.reach.se);
+    figures[LESS_EXCEED] = precision(d.exceed.mean, d.exceed.se);
+    figures[LESS_RELEASED] = precision(d.energy_per_released.mean, d.energy_per_released.se);
     ceduo_run_free(bare);
     ceduo_run_free(wood);
     ceduo_run_free(half);
@@ -112,17 +112,17 @@ static void init(struct woods *w)
     }
 }
 
-/* What the repeats found of a figure. */
+/* Sums over the repeats of one figure. */
 struct found {
     double held, width;
     struct ceduo_moments value;
 };
 
-static void note(struct found *f, const struct figure *seen, double truth)
+static void note(struct found *f, const struct figure *result, double truth)
 {
-    f->held += seen->lo <= truth && truth <= seen->hi;
-    f->width += (seen->hi - seen->lo) / 2;
-    ceduo_moments_add(&f->value, seen->value);
+    f->held += result->lo <= truth && truth <= result->hi;
+    f->width += (result->hi - result->lo) / 2;
+    ceduo_moments_add(&f->value, result->value);
 }
 
 static bool print(int k, const struct found *f, double truth, uint64_t rocks)
@@ -142,9 +142,9 @@ int main(int argc, char **argv)
     init(&w);
     struct figure truth[FIGURES], figures[FIGURES];
     static struct found found[FIGURES];
-    fly_all(&w, 1u << 20, TRUE_ROCKS, truth);
+    simulate_all(&w, 1u << 20, TRUE_ROCKS, truth);
     for (uint64_t i = 0; i < repeats; i++) {
-        fly_all(&w, i + 1, rocks, figures);
+        simulate_all(&w, i + 1, rocks, figures);
         for (int k = 0; k < FIGURES; k++)
             note(&found[k], &figures[k], truth[k].value);
     }

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the error falls with run time, on the paper's site.
+/* Measure how the error falls with run time, on the paper's site.
  *
- *   bench_error [REPEATS]        default 40; of 1000 rocks, fewer of more
+ *   bench_error [REPEATS]        default 40 for 1000 rocks, fewer for more rocks
  *
- * First the core, without forest and through its stems, 10^2 to 10^6 rocks: the root mean square of what each figure is off
- * by, over repeats with seeds of their own, beside the standard error that the program prints. Then other numbers for the
- * same rocks, by the plain walk: antithetic pairs (u and 1 - u) of the starts alone and of all, and GSL's Sobol points
- * shifted at random (the first 40 numbers of a rock, plain ones behind). Their gain is by how much less time an error takes:
- * (error2 x time) of plain numbers over (error2 x time). CSV on stdout. What is true is known from runs with many more rocks,
- * and what is off by less than twice the truth's own error is not printed. */
+ * First the core, without forest and with its stems, 10^2 to 10^6 rocks: the root mean square error of each figure over repeats
+ * with different seeds, and the standard error that the program prints. Then other random numbers in the plain walk: antithetic
+ * pairs (u and 1 - u) for the starts or for all draws, and GSL's Sobol points with a random shift (first 40 draws of a rock).
+ * Their gain is (error2 x time) of plain numbers over (error2 x time). CSV on stdout. The truth comes from runs with many more
+ * rocks. Errors below twice the truth's own error are not printed. */
 #include <gsl/gsl_qrng.h>
 #include <inttypes.h>
 #include <math.h>
@@ -20,12 +19,12 @@
 enum { MEAN, P95, REACH, EXCEED, QUANTITIES };
 static const char *const quantity_names[QUANTITIES] = {"mean_energy_kJ", "p95_energy_kJ", "reach", "exceed"};
 
-#define ACCEPTED         100e3 /* J: about half of the rocks bring more */
+#define ACCEPTED         100e3 /* J; about half of the rocks exceed it */
 #define TRUE_ROCKS       8000000
 #define TRUE_ROCKS_STEMS 1000000
 #define PLAIN_TRUE_ROCKS 4000000
 #define SOBOL_MAX        40
-#define STARTS           4 /* numbers of a start */
+#define STARTS           4 /* draws of a start */
 
 /* Sums over the repeats of one row. */
 struct row {
@@ -33,13 +32,13 @@ struct row {
     size_t repeats;
 };
 
-static size_t repeats_of(size_t asked, uint64_t rocks)
+static size_t choose_repeats(size_t asked, uint64_t rocks)
 {
     double n = (double)asked * 1000 / (double)rocks * 10;
     return n > 4.0 * (double)asked ? 4 * asked : n < 10 ? 10 : (size_t)n;
 }
 
-/* ---- the core ---- */
+/* ---- core ---- */
 
 static double run_core(struct paper_site *site, bool stems, uint64_t rocks, uint64_t seed, double value[QUANTITIES],
                        double se[QUANTITIES])
@@ -49,7 +48,7 @@ static double run_core(struct paper_site *site, bool stems, uint64_t rocks, uint
     double start = ceduo_clock();
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.option = stems ? &site->option : NULL;
-    struct ceduo_run *run = fly_run(&def, rocks);
+    struct ceduo_run *run = simulate_run(&def, rocks);
     struct ceduo_arrivals a;
     if (ceduo_run_arrivals(run, 0, &a) != CEDUO_OK)
         fail("no memory");
@@ -86,15 +85,15 @@ static void print_row(const char *what, const char *numbers, uint64_t rocks, con
     fflush(stdout);
 }
 
-static void measure_core(const char *what, bool stems, size_t asked, uint64_t most)
+static void measure_core(const char *what, bool stems, size_t asked, uint64_t max)
 {
     struct paper_site site;
     paper_site_init(&site);
     site.control.accepted = ACCEPTED;
     double truth[QUANTITIES], true_se[QUANTITIES];
     run_core(&site, stems, stems ? TRUE_ROCKS_STEMS : TRUE_ROCKS, 1u << 20, truth, true_se);
-    for (uint64_t rocks = 100; rocks <= most; rocks *= 10) {
-        struct row row = {.repeats = repeats_of(asked, rocks)};
+    for (uint64_t rocks = 100; rocks <= max; rocks *= 10) {
+        struct row row = {.repeats = choose_repeats(asked, rocks)};
         for (size_t i = 0; i < row.repeats; i++) {
             double value[QUANTITIES], se[QUANTITIES];
             row.seconds += run_core(&site, stems, rocks, i + 1, value, se);
@@ -107,7 +106,7 @@ static void measure_core(const char *what, bool stems, size_t asked, uint64_t mo
     }
 }
 
-/* ---- other numbers ---- */
+/* ---- other random numbers ---- */
 
 enum numbers { PLAIN, ANTITHETIC_STARTS, ANTITHETIC, SOBOL, NUMBERS };
 static const char *const numbers_names[NUMBERS] = {"plain", "antithetic-starts", "antithetic", "sobol"};
@@ -117,7 +116,7 @@ struct stream {
     bool spread; /* starts differ */
     uint64_t seed;
     struct line_random random;
-    bool mirrored; /* the second rock of a pair */
+    bool mirrored; /* second rock of a pair */
     gsl_qrng *sobol;
     double point[SOBOL_MAX], shift[SOBOL_MAX];
     double *energies;
@@ -145,7 +144,7 @@ static void begin(struct stream *s, uint64_t rock, struct slow_def *start)
         start->z0 = 3 * number(s, 2, true);
         start->x0 = 9 * number(s, 3, true);
     }
-    if (s->kind == ANTITHETIC_STARTS) /* from here on numbers of its own */
+    if (s->kind == ANTITHETIC_STARTS) /* plain numbers from here on */
         s->random.state = s->seed + 0x5851f42d4c957f2d * (2 * rock + 1) + 77;
 }
 
@@ -202,13 +201,13 @@ static void measure_numbers(const char *what, bool spread, size_t asked)
         fail("no memory");
     double truth[QUANTITIES], true_se[QUANTITIES];
     run_plain(&site, def, &source, PLAIN_TRUE_ROCKS, 1u << 20, truth);
-    for (int q = 0; q < QUANTITIES; q++) /* of shares; about so much of the others */
+    for (int q = 0; q < QUANTITIES; q++) /* half width for shares; about that of the others */
         true_se[q] = (q == MEAN || q == P95 ? truth[q] * 0.3 : 0.5) / sqrt(PLAIN_TRUE_ROCKS);
     for (uint64_t rocks = 100; rocks <= 100000; rocks *= 10) {
         struct row rows[NUMBERS] = {{0}};
-        size_t repeats = repeats_of(asked, rocks);
+        size_t repeats = choose_repeats(asked, rocks);
         for (size_t i = 0; i < repeats; i++)
-            for (int k = 0; k < NUMBERS; k++) { /* in turn: other work on the machine slows all alike */
+            for (int k = 0; k < NUMBERS; k++) { /* by turns, so that other load slows all equally */
                 double value[QUANTITIES];
                 source.kind = (enum numbers)k;
                 rows[k].seconds += run_plain(&site, def, &source, rocks, i + 1, value);

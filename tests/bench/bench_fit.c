@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a calibration costs: 4 values fitted to 48 stops with 2000 rocks a run, as on a quarry, on sites whose ground is known
+/* Measure the cost of a calibration: 4 values fitted to 48 stops with 2000 rocks per run, on quarries with known ground
  * (quarry_site.h).
  *
- *     bench_fit [SITES [FIRST]]
+ *   bench_fit [SITES [FIRST]]
  *
- * prints CSV; processor_s is of all threads together, so that half of it is what two cores need where nobody else is there. */
+ * Prints CSV. processor_s is the sum over all threads; two idle cores need half of it. */
 #include <stdio.h>
 
 #include "frame.h"

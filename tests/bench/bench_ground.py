@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How fast rocks run and how many arrive, over roughness, noise of the profile, size and length, before and after version 0.5.
+"""Measure speed and arrivals over roughness, noise of the profile, size and length, before and after version 0.5.
 
-    bench_ground.py [PROGRAM [ROCKS]]        default ceduo of the build, 1000
+bench_ground.py [PROGRAM [ROCKS]]        default ceduo of the build, 1000
 
-"Before" is computed by the same program with the published laws (friction_bound: false) and the grounds of version 0.4.
-CSV on stdout, one row for each place. `table`: roughness, noise, blocks or length. `way`: see WAYS. `roughness_m`: of the talus;
-NaN: of the library. `arrive`: of 1000 rocks, mean over the seeds, with the smallest and the largest. Speeds in m/s."""
+"Before" is the same program with the published laws (friction_bound: false) and the grounds of version 0.4. CSV on stdout, one
+row per place. `table`: roughness, noise, blocks or length. `way`: see WAYS. `roughness_m`: of the talus; NaN: the library's.
+`arrive`: per 1000 rocks, mean, minimum and maximum over the seeds. Speeds in m/s."""
 import json
 import math
 import os
@@ -43,7 +43,7 @@ class Bench:
         self.program, self.rocks = program, rocks
 
     def run(self, points, ground, law, bound, places, diameter):
-        """Rocks of 1000 that arrive at each place, and their mean speed (NaN: none arrives)."""
+        """Return the rocks per 1000 that arrive at each place, and their mean speed (NaN: none arrives)."""
         scene = SCENE.format(points=", ".join(f"[{x:.6g}, {z:.8g}]" for x, z in points), ground=ground, law=law,
                              bound=str(bound).lower(), places=", ".join(f"{x:.6g}" for x in places), rocks=self.rocks,
                              diameter=diameter)
@@ -66,7 +66,7 @@ class Bench:
         return self.run(points, ground, law, bound, PLACES, 0.8)
 
     def plane(self, degrees, metres, way, roughness, diameter):
-        """On a straight slope: after each of the lengths, along the slope."""
+        """Make a straight slope with a control after each length, along the slope."""
         law, bound, friction = way
         slope, longest = math.radians(degrees), metres[-1] + 10
         points = ((0, longest * math.sin(slope)), (longest * math.cos(slope), 0))
@@ -75,7 +75,7 @@ class Bench:
 
 
 def profile(step, noise, seed):
-    """The face with a point each `step` metres, every other than the ends moved up or down at random."""
+    """Make the face with a point every `step` metres; every other inner point is moved up or down at random."""
     draw, points = random.Random(seed), []
     for i in range(round(270 / step) + 1):
         x = i * step

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The default kernel against the plain walk of one rock after another, on eight scenes, by turns in this one run.
+/* Compare the default kernel with the plain walk of one rock after another, on eight scenes, by turns in one run.
  *
  *   bench_kernels [REPEATS [ROCKS]]        default 7, 5000
  *
- * CSV on stdout, one thread: medians of processor time. Exit 1 if the default kernel takes more than SLOWER_MAX times as long as
- * the plain walk on a scene, or if the two differ in a contact, a hit or the mean energy. */
+ * CSV on stdout, one thread: medians of processor time. Exit 1 if the default kernel takes more than SLOWER_MAX times as long
+ * as the plain walk on a scene, or if the two differ in a contact, a hit or the mean energy. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -19,8 +19,8 @@
 
 struct place {
     const char *name, *path;
-    bool fine;    /* on a profile of FINE_VERTICES instead of its own */
-    size_t first; /* option; NO_FOREST: none */
+    bool fine;    /* on a profile of FINE_VERTICES */
+    size_t first; /* option, or NO_FOREST */
 };
 
 #define NO_FOREST SIZE_MAX
@@ -36,7 +36,7 @@ static const struct place places[] = {
     {"fine profile", "profiles/scenes/paper-site.yaml", true, 0},
 };
 
-/* The default kernel, and the plain walk. */
+/* Results of the default kernel and of the plain walk. */
 struct measure {
     enum ceduo_kernel kernel;
     double seconds[REPEATS_MAX];
@@ -45,8 +45,8 @@ struct measure {
     double energy; /* J, at the last control */
 };
 
-static void fly(const struct ceduo_scene *scene, const struct ceduo_option *option, struct measure *m, uint64_t rocks,
-                size_t repeat)
+static void simulate(const struct ceduo_scene *scene, const struct ceduo_option *option, struct measure *m, uint64_t rocks,
+                     size_t repeat)
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     uint64_t reached;
@@ -54,7 +54,7 @@ static void fly(const struct ceduo_scene *scene, const struct ceduo_option *opti
     def.rocks_most = rocks;
     def.kernel = m->kernel;
     double start = processor_s();
-    struct ceduo_run *run = fly_run(&def, rocks);
+    struct ceduo_run *run = simulate_run(&def, rocks);
     m->seconds[repeat] = processor_s() - start;
     m->contacts = ceduo_run_contacts(run);
     m->stems = ceduo_run_stems(run);
@@ -78,7 +78,7 @@ static bool measure_place(const struct place *place, size_t repeats, uint64_t ro
     struct ceduo_control control = scene.controls[0];
     if (place->first != NO_FOREST)
         option = scene.options[place->first];
-    if (place->fine) { /* both belts of the site as long as half of the slope */
+    if (place->fine) { /* both belts cover half of the slope */
         scene.slope = fine_slope(&scene.slope.segments[0], FINE_METRES, FINE_VERTICES);
         control.x = FINE_CONTROL;
         scene.controls = &control;
@@ -93,8 +93,8 @@ static bool measure_place(const struct place *place, size_t repeats, uint64_t ro
     best.kernel = CEDUO_KERNEL_BEST;
     plain.kernel = CEDUO_KERNEL_SCALAR;
     for (size_t r = 0; r < repeats; r++) {
-        fly(&scene, place->first == NO_FOREST ? NULL : &option, &best, rocks, r);
-        fly(&scene, place->first == NO_FOREST ? NULL : &option, &plain, rocks, r);
+        simulate(&scene, place->first == NO_FOREST ? NULL : &option, &best, rocks, r);
+        simulate(&scene, place->first == NO_FOREST ? NULL : &option, &plain, rocks, r);
     }
     double best_s = median(best.seconds, repeats), plain_s = median(plain.seconds, repeats), ratio = best_s / plain_s;
     printf("\"%s\",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.4f,%.4f,%.3f\n", place->name, rocks, best.contacts, best.stems.hit,

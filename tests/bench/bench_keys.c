@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How long a key takes until its screen is drawn on the grid of cells, while rocks are simulated: in the lists (what a choice
- * does to the lights is computed there), in forms, and where a field is edited. Prints CSV. */
+/* Measure the time from a key until its screen is drawn on the grid of cells, while rocks are simulated: in lists (a selection
+ * recomputes the lights), in forms, and in an edited field. Prints CSV. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -31,7 +31,7 @@ static void type(struct hand *h, const char *text)
         press(h, (unsigned char)*text, true);
 }
 
-/* An edit, so that all rocks are simulated anew while the next keys come. */
+/* Edit the scene, so that all rocks are simulated again while the next keys come. */
 static void set_off(struct hand *h)
 {
     press(h, '3', false);

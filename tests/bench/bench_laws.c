@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Speed of the laws of contacts, by turns, on the slope of Ciabocco et al. 2009 and on a long meadow.
+/* Compare the speed of the contact laws, by turns, on the slope of Ciabocco et al. 2009 and on a long meadow.
  *
  *   bench_laws [REPEATS [ROCKS]]        default 9, 20000
  *
- * CSV on stdout: medians of processor time of one thread; nanoseconds a rock and a contact; ratios to lumped. */
+ * CSV on stdout: medians of processor time of one thread, nanoseconds per rock and per contact, ratios to lumped. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,14 +16,14 @@ struct turn {
     uint64_t contacts;
 };
 
-static double time_of(const struct ceduo_scene *scene, enum ceduo_kernel kernel, uint64_t rocks, uint64_t *contacts)
+static double measure_time(const struct ceduo_scene *scene, enum ceduo_kernel kernel, uint64_t rocks, uint64_t *contacts)
 {
     double start = processor_s();
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.kernel = kernel;
     def.threads = 1;
     def.rocks_most = rocks;
-    struct ceduo_run *run = fly_run(&def, rocks);
+    struct ceduo_run *run = simulate_run(&def, rocks);
     *contacts = ceduo_run_contacts(run);
     double seconds = processor_s() - start;
     ceduo_run_free(run);
@@ -38,7 +38,7 @@ static void measure(const char *place, struct ceduo_scene *scene, enum ceduo_ker
     for (size_t i = 0; i < repeats; i++)
         for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
             scene->simulation.law = (enum ceduo_law)law;
-            turns[law].seconds[i] = time_of(scene, kernel, rocks, &turns[law].contacts);
+            turns[law].seconds[i] = measure_time(scene, kernel, rocks, &turns[law].contacts);
         }
     double lumped = 0, lumped_contact = 0;
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How long a person waits: from a key to the first new picture of at least 1000 rocks, on the grid of cells (what a
- * terminal adds is its own), to 10 000 rocks, and for an edit of a stand: to its index, and to the first rocks through it.
- * Prints CSV. */
+/* Measure how long a user waits, on the grid of cells without a terminal: from a key to the first picture of at least 1000
+ * rocks, to 10 000 rocks, and from an edit of a stand to its index and to the first rocks through it. Prints CSV. */
 #include <ftw.h>
 #include <poll.h>
 #include <stdio.h>
@@ -20,7 +19,7 @@ static void report(const char *what, double *ms, size_t n, double goal_median, d
     printf("%s,%zu,%.3f,%.3f,%g,%g\n", what, n, ms[n / 2], ms[(n * 99) / 100], goal_median, goal_p99);
 }
 
-/* Until the newest figures stand on at least so many rocks and are drawn. */
+/* Wait until the drawn figures rest on at least `rocks` rocks. */
 static void wait_for(struct app *app, uint64_t rocks)
 {
     do {
@@ -50,7 +49,7 @@ static int remove_entry(const char *path, const struct stat *st, int type, struc
 
 int main(int argc, char **argv)
 {
-    /* work that somebody left behind on the scene would be offered first */
+    /* unsaved work on the scene would be offered first */
     char state[] = "/tmp/ceduo-bench-XXXXXX";
     if (!mkdtemp(state) || setenv("XDG_STATE_HOME", state, 1) != 0)
         return 1;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a finely digitised slope costs: the same rocks on the slope of Ciabocco et al. 2009 as it is (13 segments), cut into
- * many segments along its own lines, with each of these vertices moved by up to 1 mm, and with roughness of all lengths
- * laid over it (the rough one), at a few numbers of vertices.
+/* Measure the cost of a finely digitised slope: the same rocks on four versions of the slope of Ciabocco et al. 2009. These are
+ * its 13 segments, many segments along its own lines, the same with each vertex moved by up to 1 mm, and one with added
+ * roughness of all lengths (the rough one), at several numbers of vertices.
  *
  *   bench_profiles [REPEATS [ROCKS [VERTICES]]]        default 7, 20000, 100000
  *
- * CSV on stdout, one thread, all by turns in one run: medians of the wall time that making the run takes and of that for
- * flying the rocks; of these times together the ratio to 13 segments, likewise of the time that a contact takes. */
+ * CSV on stdout, one thread, all by turns in one run: medians of the wall time to make the run and to simulate the rocks, the
+ * ratio of their sum to 13 segments, and the same ratio per contact. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -18,11 +18,11 @@
 #define VERTICES_MAX 4000000
 #define KINDS        6
 #define MOVED        1e-3 /* m */
-#define STEEPNESS    0.15 /* of each wave of the rough profile */
+#define STEEPNESS    0.15 /* each wave of the rough profile */
 
 struct profile {
     const char *name;
-    struct ceduo_slope slope; /* as the site's own, but for vertices and segments */
+    struct ceduo_slope slope; /* the site's slope with other vertices and segments */
 };
 
 struct measure {
@@ -32,13 +32,13 @@ struct measure {
 
 /* ---- profiles ---- */
 
-/* Every vertex but the ends moved by up to 1 mm, along x no further than the order of the vertices allows. */
+/* Move every vertex except the ends by up to 1 mm, keeping the order of x. */
 static void move_vertices(struct ceduo_slope *s)
 {
     struct line_random r = {.state = 1};
     for (size_t i = 1; i + 1 < s->vertices; i++) {
-        double room = fmin(MOVED, 0.4 * (s->x[i + 1] - s->x[i]));
-        double x = s->x[i] + room * line_uniform(&r, -1, 1);
+        double limit = fmin(MOVED, 0.4 * (s->x[i + 1] - s->x[i]));
+        double x = s->x[i] + limit * line_uniform(&r, -1, 1);
         s->x[i] = x > s->x[i - 1] ? x : s->x[i];
         s->z[i] += MOVED * line_uniform(&r, -1, 1);
     }
@@ -57,7 +57,7 @@ static void make_profiles(struct profile *p, const struct ceduo_slope *paper, si
         roughen_slope(&p[i].slope, STEEPNESS);
 }
 
-/* ---- measuring ---- */
+/* ---- measurement ---- */
 
 static void measure(const struct ceduo_scene *site, const struct profile *p, uint64_t rocks, struct measure *m, size_t repeat)
 {

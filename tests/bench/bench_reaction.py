@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How soon a signal, or q in the terminal program, ends it while rocks that are much work are under way, in ms."""
+"""Measure how soon a signal, or q in the terminal program, ends it during expensive rocks, in ms."""
 import signal
 import statistics
 import sys

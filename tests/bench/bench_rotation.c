@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How long a rotation takes: every option of a scene in each of 25 years, so many rocks in each, grown, flown and assessed.
- * CSV on stdout, medians. */
+/* Measure the time of a rotation: grow, simulate and assess each of 25 years for every option of a scene. CSV on stdout,
+ * medians. */
 #include <inttypes.h>
 #include <stdio.h>
 
 #include "ceduo/years.h"
 #include "frame.h"
 
-#define FIRST        1 /* just cut, to the end of the rotation */
+#define FIRST        1 /* years, from just after the cut to the end of the rotation */
 #define LAST         25
 #define GOAL_SECONDS 2 /* with 10 000 rocks on two cores */
 
-/* All of it once, from a scene that was read; what was done goes to *work. */
-static void fly(const struct ceduo_scene *scene, unsigned threads, uint64_t rocks, struct ceduo_work *work)
+/* Simulate all options and years from a parsed scene; the amount of work goes to *work. */
+static void simulate(const struct ceduo_scene *scene, unsigned threads, uint64_t rocks, struct ceduo_work *work)
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.threads = threads;
@@ -44,7 +44,7 @@ static void measure(const char *path, size_t repeats, uint64_t rocks, unsigned t
     struct timing t;
     for (size_t r = 0; r < repeats; r++) {
         timing_begin(&t);
-        fly(&file.scene, threads, rocks, &work);
+        simulate(&file.scene, threads, rocks, &work);
         timing_end(&t, r);
     }
     printf("%s,%zu,%d,%" PRIu64 ",%u,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.3f,%.3f,%d\n", path, file.scene.options_count,

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far single ways part under another rounding mode, and what becomes of the statistics, on the slope of Ciabocco et
- * al. 2009, with both laws, the facets on either side and both readings of the roughness.
+/* Measure how far single trajectories diverge under another rounding mode, and its effect on the statistics, on the slope of
+ * Ciabocco et al. 2009, with both laws, the facets on either side and both readings of the roughness.
  *
  *   bench_rounding [ROCKS]        default 20000
  *
- * CSV on stdout. Each rock is flown under round to nearest and under another mode: the median distance (m) of its places
- * at its 1st, 5th, 10th, 20th and 40th contact, over those that have so many; the share of rocks that end more than 1 mm
- * apart; mean speed and energy of translation at the control with what they differ by, in their standard errors.
+ * CSV on stdout. Each rock is simulated under round to nearest and under another mode. Columns: the median distance (m) between
+ * its positions at its 1st, 5th, 10th, 20th and 40th contact, over the rocks with that many contacts; the share of rocks that
+ * end more than 1 mm apart; mean speed and translational energy at the control, with their differences in standard errors.
  *
- * Ways hardly part: a contact turns a difference up, but it also takes of the speed that carries it on, and most are
- * still within 1e-12 m at their 40th. Where one does part, at a decision such as whether a rock rolls or bounces once
- * more, no harm is done: it is as good a way as the other, and the mean over many moves by a small part of its error. */
+ * Trajectories hardly diverge: a contact amplifies a difference but also takes speed, and most are within 1e-12 m at their
+ * 40th. A trajectory that diverges does so at a decision, such as rolling or bouncing once more. It is as valid as the other,
+ * and the mean of many moves by a small part of its error. */
 #include <fenv.h>
 #include <inttypes.h>
 #include <math.h>
@@ -39,14 +39,14 @@ struct sums {
 static void note(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct track *t = context;
-    if (p->contacts > t->contacts && p->contacts <= CONTACTS) { /* the first piece after that contact */
+    if (p->contacts > t->contacts && p->contacts <= CONTACTS) { /* the first segment after that contact */
         t->contacts = p->contacts;
         t->x[p->contacts] = p->x;
         t->z[p->contacts] = p->z;
     }
 }
 
-static void fly(struct ceduo_tracer *f, uint64_t rock, int mode, struct track *t)
+static void simulate(struct ceduo_tracer *f, uint64_t rock, int mode, struct track *t)
 {
     t->contacts = 0;
     fesetround(mode);
@@ -76,20 +76,20 @@ static double error(const struct sums *s)
 
 static void compare(const char *name, const struct paper_site *site, const char *mode_name, int mode, uint64_t rocks)
 {
-    double *apart[MARKS], mass;
+    double *distance[MARKS], mass;
     size_t many[MARKS] = {0};
     uint64_t ends_apart = 0;
     struct sums speed[2] = {0}, energy[2] = {0};
     struct ceduo_tracer *f = ceduo_tracer_create(&site->scene, NULL);
     static struct track t[2];
     for (size_t i = 0; i < MARKS; i++)
-        if (!(apart[i] = malloc(rocks * sizeof(double))))
+        if (!(distance[i] = malloc(rocks * sizeof(double))))
             fail("no memory");
     if (!f)
         fail("no memory");
     for (uint64_t rock = 0; rock < rocks; rock++) {
         for (int k = 0; k < 2; k++) {
-            fly(f, rock, k == 0 ? FE_TONEAREST : mode, &t[k]);
+            simulate(f, rock, k == 0 ? FE_TONEAREST : mode, &t[k]);
             const struct ceduo_crossing *c = &t[k].crossing;
             mass = t[k].way.rock.mass;
             if (c->reached) {
@@ -99,14 +99,14 @@ static void compare(const char *name, const struct paper_site *site, const char 
         }
         for (size_t i = 0; i < MARKS; i++)
             if (t[0].contacts >= marks[i] && t[1].contacts >= marks[i])
-                apart[i][many[i]++] = hypot(t[0].x[marks[i]] - t[1].x[marks[i]], t[0].z[marks[i]] - t[1].z[marks[i]]);
+                distance[i][many[i]++] = hypot(t[0].x[marks[i]] - t[1].x[marks[i]], t[0].z[marks[i]] - t[1].z[marks[i]]);
         ends_apart += hypot(t[0].way.x - t[1].way.x, t[0].way.z - t[1].way.z) > 1e-3;
     }
     printf("%s,%s,%" PRIu64, name, mode_name, rocks);
     for (size_t i = 0; i < MARKS; i++) {
-        qsort(apart[i], many[i], sizeof(double), by_value);
-        printf(",%.1e", many[i] > 0 ? apart[i][many[i] / 2] : NAN);
-        free(apart[i]);
+        qsort(distance[i], many[i], sizeof(double), by_value);
+        printf(",%.1e", many[i] > 0 ? distance[i][many[i] / 2] : NAN);
+        free(distance[i]);
     }
     printf(",%.4f,%.4f,%+.3f,%.3f,%+.3f\n", (double)ends_apart / (double)rocks, mean(&speed[0]),
            (mean(&speed[1]) - mean(&speed[0])) / error(&speed[0]), mean(&energy[0]),

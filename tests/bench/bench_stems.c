@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What stems cost: ground contacts a second without forest beside ground contacts and encounters (stools or trees of which
- * a stem is hit) a second through it, on one thread, by turns in one run. CSV on stdout, medians. */
+/* Measure the cost of stems, on one thread, by turns in one run: ground contacts per second without forest, and contacts plus
+ * encounters (hit stools or trees) per second through the forest. CSV on stdout, medians. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,14 +15,14 @@ struct kind {
     double seconds[REPEATS_MAX];
 };
 
-static void fly(struct ceduo_scene scene, struct kind *k, uint64_t rocks, size_t repeat)
+static void simulate(struct ceduo_scene scene, struct kind *k, uint64_t rocks, size_t repeat)
 {
     scene.simulation.contact_model = k->model;
     struct ceduo_run_def def = ceduo_run_def_default(&scene);
     def.option = k->model == CEDUO_INDEX ? NULL : &scene.options[0];
     def.rocks_most = rocks;
     double start = ceduo_clock();
-    struct ceduo_run *run = fly_run(&def, rocks);
+    struct ceduo_run *run = simulate_run(&def, rocks);
     k->seconds[repeat] = ceduo_clock() - start;
     k->contacts = ceduo_run_contacts(run);
     k->stems = ceduo_run_stems(run);
@@ -37,7 +37,7 @@ static void measure(const char *path, size_t repeats, uint64_t rocks)
     size_t n = sizeof kinds / sizeof kinds[0];
     for (size_t r = 0; r < repeats; r++)
         for (size_t k = 0; k < n; k++)
-            fly(file.scene, &kinds[k], rocks, r);
+            simulate(file.scene, &kinds[k], rocks, r);
     double bare = 0;
     for (size_t k = 0; k < n; k++) {
         double seconds = median(kinds[k].seconds, repeats);

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A flight solved exactly against one followed in time steps: what each is off by, and what it takes.
+/* Compare an exact solution of a flight with time steps: errors and cost.
  *
  *   bench_stepping [FLIGHTS]        default 2000
  *
- * Flights leave random places of the paper's slope with random speeds and come down on it. The core's way of it is a quadratic
- * for the segment it meets. Beside it a fixed step with the exact parabola between steps (contact where it is first found
- * under the ground, on the straight line between the last two points), a fixed step by Euler's rule (speed first), and GSL's
- * Runge-Kutta-Fehlberg 4(5) driver, whose local error is bounded by the tolerance, with the contact found by halving the last
- * step. The error is how far along the ground the contact lies from the exact one; a step can also fly through a corner and
- * come down elsewhere: those beyond 1 m are counted by themselves. CSV on stdout. */
+ * Flights leave random places of the paper's slope with random speeds. The core solves a quadratic for the segment that is hit.
+ * The alternatives: a fixed step with the exact parabola between steps (the contact lies on the straight line between the last
+ * two points), a fixed step by Euler's rule (speed first), and GSL's Runge-Kutta-Fehlberg 4(5) driver with bounded local error,
+ * which bisects the last step. The error is the distance along the ground to the exact contact. A step can also pass through a
+ * corner and land elsewhere: contacts more than 1 m away are counted separately. CSV on stdout. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>
@@ -24,10 +23,10 @@
 
 struct launch {
     struct flight from;
-    double x; /* of the exact contact */
+    double x; /* exact contact */
 };
 
-/* Height over the ground; beyond the ends over the last segment carried on. */
+/* Return the height above ground; the first and last segment extend beyond the ends. */
 static double height(const struct ground *g, double x, double z, size_t *segment)
 {
     size_t j = *segment;
@@ -39,19 +38,19 @@ static double height(const struct ground *g, double x, double z, size_t *segment
     return z - (g->vertices[j].z + g->segments[j].m * (x - g->vertices[j].x));
 }
 
-static double by_quadratic(const struct ground *g, const struct launch *l, double step)
+static double solve_quadratic(const struct ground *g, const struct launch *l, double step)
 {
     (void)step;
     return next_landing(g, &l->from).x;
 }
 
-/* Where the straight line from (x0, h0 >= 0) to (x1, h1 < 0) meets the ground. */
-static double cross(double x0, double h0, double x1, double h1)
+/* Return x of the intersection of the line from (x0, h0 >= 0) to (x1, h1 < 0) with the ground. */
+static double intersect_ground(double x0, double h0, double x1, double h1)
 {
     return x0 + (x1 - x0) * h0 / (h0 - h1);
 }
 
-static double by_parabola_steps(const struct ground *g, const struct launch *l, double step)
+static double step_parabola(const struct ground *g, const struct launch *l, double step)
 {
     const struct flight *f = &l->from;
     size_t segment = f->segment;
@@ -60,14 +59,14 @@ static double by_parabola_steps(const struct ground *g, const struct launch *l, 
         double t = (double)i * step, x = f->x + f->vx * t, z = f->z + (f->vz - g->half_g * t) * t;
         double h = height(g, x, z, &segment);
         if (h < 0)
-            return cross(x0, h0, x, h);
+            return intersect_ground(x0, h0, x, h);
         x0 = x;
         h0 = h;
     }
     return NAN;
 }
 
-static double by_euler(const struct ground *g, const struct launch *l, double step)
+static double step_euler(const struct ground *g, const struct launch *l, double step)
 {
     double x = l->from.x, z = l->from.z, vz = l->from.vz, h0 = 0;
     size_t segment = l->from.segment;
@@ -78,7 +77,7 @@ static double by_euler(const struct ground *g, const struct launch *l, double st
         z += vz * step;
         double h = height(g, x, z, &segment);
         if (h < 0)
-            return cross(x0, h0, x, h);
+            return intersect_ground(x0, h0, x, h);
         h0 = h;
     }
     return NAN;
@@ -94,8 +93,8 @@ static int falling(double t, const double y[], double dydt[], void *params)
     return GSL_SUCCESS;
 }
 
-/* A free step may be as long as the driver likes, but not longer than a tenth of a second: longer ones fly over corners. */
-static double by_gsl(const struct ground *g, const struct launch *l, double tolerance)
+/* Integrate with GSL's driver. A step is at most a tenth of a second: longer steps pass over corners. */
+static double step_gsl(const struct ground *g, const struct launch *l, double tolerance)
 {
     double gravity = g->gravity, t = 0, result = NAN;
     gsl_odeiv2_system system = {falling, NULL, 4, &gravity};
@@ -113,10 +112,10 @@ static double by_gsl(const struct ground *g, const struct launch *l, double tole
             continue;
         }
         if (step <= tolerance || step < 1e-12) {
-            result = cross(before[0], h0, y[0], h);
+            result = intersect_ground(before[0], h0, y[0], h);
             break;
         }
-        for (int k = 0; k < 4; k++) /* back, and half as far */
+        for (int k = 0; k < 4; k++) /* step back, then halve */
             y[k] = before[k];
         t = t0;
         step /= 2;
@@ -129,7 +128,7 @@ static double by_gsl(const struct ground *g, const struct launch *l, double tole
 static void measure(const struct ground *g, const struct launch *launches, size_t n, const char *what, double step,
                     double (*contact)(const struct ground *, const struct launch *, double))
 {
-    double sum2 = 0, most = 0, start = processor_s();
+    double sum2 = 0, max = 0, start = processor_s();
     size_t missed = 0, close = 0;
     for (size_t i = 0; i < n; i++) {
         double off = fabs(contact(g, &launches[i], step) - launches[i].x);
@@ -139,11 +138,10 @@ static void measure(const struct ground *g, const struct launch *launches, size_
         }
         close++;
         sum2 += off * off;
-        most = fmax(most, off);
+        max = fmax(max, off);
     }
     double seconds = processor_s() - start;
-    printf("%s,%g,%zu,%.3g,%.3g,%.3g,%zu\n", what, step, n, seconds / (double)n * 1e9, sqrt(sum2 / (double)close), most,
-           missed);
+    printf("%s,%g,%zu,%.3g,%.3g,%.3g,%zu\n", what, step, n, seconds / (double)n * 1e9, sqrt(sum2 / (double)close), max, missed);
     fflush(stdout);
 }
 
@@ -173,13 +171,13 @@ int main(int argc, char **argv)
             launches[i++] = (struct launch){f, l.x};
     }
     puts("what,step_s_or_tolerance,flights,ns_per_flight,rms_error_m,largest_error_m,beyond_1_m");
-    for (int repeat = 0; repeat < 200; repeat++) /* warm, and long enough to be timed */
-        by_quadratic(&g, &launches[(size_t)repeat % n], 0);
-    measure(&g, launches, n, "exact", 0, by_quadratic);
+    for (int repeat = 0; repeat < 200; repeat++) /* warm, and long enough to time */
+        solve_quadratic(&g, &launches[(size_t)repeat % n], 0);
+    measure(&g, launches, n, "exact", 0, solve_quadratic);
     for (double step = 1e-1; step > 0.9e-5; step /= 10) {
-        measure(&g, launches, n, "parabola-steps", step, by_parabola_steps);
-        measure(&g, launches, n, "euler-steps", step, by_euler);
-        measure(&g, launches, n, "gsl-rkf45", step, by_gsl);
+        measure(&g, launches, n, "parabola-steps", step, step_parabola);
+        measure(&g, launches, n, "euler-steps", step, step_euler);
+        measure(&g, launches, n, "gsl-rkf45", step, step_gsl);
     }
     free(launches);
     ceduo_ground_release(&g);

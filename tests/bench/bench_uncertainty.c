@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How long a sensitivity takes, with so many points and rocks: the paper's site with its twelve inputs, and four options today and
- * over their rotations. CSV on stdout, medians. */
+/* Measure the time of a sensitivity analysis: the paper's site with its twelve inputs, and four options today and over their
+ * rotations. CSV on stdout, medians. */
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -8,7 +8,7 @@
 #include "frame.h"
 #include "io/scene_file.h"
 
-/* `goal`: seconds with as many points and rocks as are taken unasked, on two cores; 0: none. */
+/* `goal`: seconds with the default points and rocks on two cores; 0: none. */
 static void measure(const char *path, bool rotation, double goal, size_t repeats, size_t points, uint64_t rocks,
                     unsigned threads)
 {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The error of what a sensitivity says against the time of the processor that it takes: the surface through Sobol' points
- * (ceduo/surface.h) beside the usual design, in which every input is drawn anew alone (Saltelli et al. 2010, with the estimator of
- * the totals by Jansen 1999). What is true comes from the usual design with many points and rocks.
+/* Compare the error of a sensitivity analysis per processor time: the surface through Sobol' points (ceduo/surface.h) and the
+ * usual design, which redraws one input at a time (Saltelli et al. 2010, totals estimated as by Jansen 1999). The truth comes
+ * from the usual design with many points and rocks.
  *
- *     bench_uncertainty_error [SEEDS [POINTS]]
+ *   bench_uncertainty_error [SEEDS [POINTS]]
  *
- * prints CSV: root mean squares over the seeds, of both ends of the 90 % band, and of the total shares of all inputs; and, of the
- * surface, how often what is true lies within 1.96 of the errors that it tells with them. */
+ * Prints CSV: root mean squares over the seeds for both ends of the 90 % band and for the total shares of all inputs. For the
+ * surface also how often the truth lies within 1.96 of its reported errors. */
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <inttypes.h>
@@ -18,14 +18,14 @@
 #include "io/scene_file.h"
 #include "study/points.h"
 
-#define INPUTS_MAX      20 /* twice as many columns, of the 40 that the points have */
+#define INPUTS_MAX      20 /* twice the columns, at most the 40 of a point */
 #define THREADS         2
 #define TRUE_ROCKS      4000
-#define TRUE_BAND_ROCKS 10000 /* the same rocks at all points move the whole band */
-#define FIRST_SEED      1000  /* others than those of what is true */
+#define TRUE_BAND_ROCKS 10000 /* shared rocks at all points move the whole band */
+#define FIRST_SEED      1000  /* seeds that the truth does not use */
 #define CONTROL(of)     ceduo_scene_last_control(of)
 
-/* What is compared. */
+/* Band and shares by one method. */
 struct found {
     double band[2], totals[INPUTS_MAX], band_se[2], totals_se[INPUTS_MAX], seconds;
     uint64_t evaluations;
@@ -34,9 +34,9 @@ struct found {
 static struct scene_file file;
 static struct scene_inputs inputs;
 
-/* ---- the surface ---- */
+/* ---- surface ---- */
 
-static void by_surface(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
+static void measure_surface(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
 {
     const struct ceduo_uncertainty_def def = {.scene = &file.scene,
                                               .inputs_count = inputs.n,
@@ -62,9 +62,9 @@ static void by_surface(size_t points, uint64_t rocks, uint64_t seed, struct foun
     ceduo_uncertainty_free(&answer);
 }
 
-/* ---- the usual design ---- */
+/* ---- usual design ---- */
 
-/* All designs have whole groups of equal size. */
+/* Store a value; all designs have whole groups of equal size. */
 static void read_value(void *context, const struct point *point, const struct control_means *at)
 {
     double sum = 0;
@@ -73,7 +73,7 @@ static void read_value(void *context, const struct point *point, const struct co
     ((double *)context)[point->row] = sum / CEDUO_SURFACE_GROUPS;
 }
 
-/* Rows of two independent samples A and B, then for each input A with that column of B. */
+/* Fill rows of two independent samples A and B, then for each input A with that column of B. */
 static void fill_rows(size_t n, uint64_t seed, double *u)
 {
     size_t d = inputs.n;
@@ -105,8 +105,8 @@ static void read_band(double *y, size_t n, struct found *found)
     found->band[1] = ceduo_quantile(y, n, .95);
 }
 
-/* `more_rocks`: the band once more, of so many rocks. */
-static void draw_anew(size_t n, uint64_t rocks, uint64_t more_rocks, uint64_t seed, struct found *found)
+/* `more_rocks`: evaluate the band again with this many rocks. */
+static void redraw_inputs(size_t n, uint64_t rocks, uint64_t more_rocks, uint64_t seed, struct found *found)
 {
     size_t rows = n * (inputs.n + 2);
     double *u = malloc(rows * inputs.n * sizeof *u), *y = malloc(rows * sizeof *y), start = processor_s();
@@ -130,9 +130,9 @@ static void draw_anew(size_t n, uint64_t rocks, uint64_t more_rocks, uint64_t se
     free(y);
 }
 
-static void by_drawing_anew(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
+static void measure_redraws(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
 {
-    draw_anew(points, rocks, 0, seed, found);
+    redraw_inputs(points, rocks, 0, seed, found);
 }
 
 /* ---- errors ---- */
@@ -142,13 +142,13 @@ static const struct design {
     void (*by)(size_t points, uint64_t rocks, uint64_t seed, struct found *found);
     size_t points;
     uint64_t rocks;
-    size_t times; /* so many more seeds */
-} designs[] = {{"surface", by_surface, 64, 400, 20},         {"surface", by_surface, 256, 400, 20},
-               {"surface", by_surface, 1024, 400, 1},        {"surface", by_surface, 256, 1600, 1},
-               {"drawn anew", by_drawing_anew, 16, 400, 1},  {"drawn anew", by_drawing_anew, 64, 400, 1},
-               {"drawn anew", by_drawing_anew, 256, 400, 1}, {"drawn anew", by_drawing_anew, 64, 1600, 1}};
+    size_t times; /* factor for the number of seeds */
+} designs[] = {{"surface", measure_surface, 64, 400, 20},    {"surface", measure_surface, 256, 400, 20},
+               {"surface", measure_surface, 1024, 400, 1},   {"surface", measure_surface, 256, 1600, 1},
+               {"drawn anew", measure_redraws, 16, 400, 1},  {"drawn anew", measure_redraws, 64, 400, 1},
+               {"drawn anew", measure_redraws, 256, 400, 1}, {"drawn anew", measure_redraws, 64, 1600, 1}};
 
-/* Sums of squared errors, and in how many the error is within 1.96 of what was told. */
+/* Sums of squared errors, and counts of errors within 1.96 of the reported one. */
 struct errors {
     double squares, held, n;
 };
@@ -175,7 +175,7 @@ static void measure(const struct design *d, size_t seeds, const struct found *tr
     }
     printf("%s,%zu,%" PRIu64 ",%" PRIu64 ",%.3f,%.2f,%.2f,", d->name, d->points, d->rocks, found.evaluations,
            seconds / (double)(seeds * d->times), 1000 * sqrt(band.squares / band.n), 100 * sqrt(shares.squares / shares.n));
-    printf(d->by == by_surface ? "%.1f,%.1f\n" : ",\n", 100 * band.held / band.n, 100 * shares.held / shares.n);
+    printf(d->by == measure_surface ? "%.1f,%.1f\n" : ",\n", 100 * band.held / band.n, 100 * shares.held / shares.n);
     fflush(stdout);
 }
 
@@ -187,7 +187,7 @@ int main(int argc, char **argv)
     read_scene(&file, "profiles/scenes/paper-site.yaml");
     if (!ceduo_inputs_collect(&file, &inputs) || inputs.n > INPUTS_MAX)
         fail("the inputs cannot be read");
-    draw_anew(true_points, TRUE_ROCKS, TRUE_BAND_ROCKS, 1, &truth);
+    redraw_inputs(true_points, TRUE_ROCKS, TRUE_BAND_ROCKS, 1, &truth);
     puts("design,points,rocks,scenes,cpu_seconds,band_of_1000,shares_percent,band_held_percent,shares_held_percent");
     for (size_t i = 0; i < sizeof designs / sizeof designs[0]; i++)
         measure(&designs[i], seeds, &truth);

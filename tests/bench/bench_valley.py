@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many small scenes in one call: a valley of profiles that share one slope, by the index, 100 rocks each, a bad one among them.
+"""Many small scenes in one call: a valley of profiles that share one slope, by the index, 100 rocks each, one of them invalid.
 
-    bench_valley.py [PROGRAM [SCENES [REPEATS]]]        default ceduo of the build, 10000, 3
+bench_valley.py [PROGRAM [SCENES [REPEATS]]]        default ceduo of the build, 10000, 3
 
-CSV on stdout: medians; the peak of memory says whether it grows with the scenes."""
+CSV on stdout: medians. Peak memory shows whether it grows with the scenes."""
 import os
 import re
 import statistics
@@ -27,7 +27,7 @@ simulation: {{rocks: 100, contact_model: index}}
 
 
 def high_water(pid):
-    """The most memory of a process so far, in MiB; 0 where it has ended."""
+    """Return the peak memory of a process in MiB; 0 if it has ended."""
     try:
         status = Path(f"/proc/{pid}/status").read_text()
     except OSError:
@@ -37,7 +37,7 @@ def high_water(pid):
 
 
 def run(program, folder, files):
-    """Seconds, and the most memory."""
+    """Return seconds and peak memory."""
     start = time.monotonic()
     p = subprocess.Popen([program, "--batch", "-f", "csv", "-o", "out.csv", *files], cwd=folder, stderr=subprocess.DEVNULL)
     peak = 0

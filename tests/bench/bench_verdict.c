@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether what is called clear stays: for many seeds, which option is clearly best after the first thousand rocks,
- * and after ten times as many, today and over a rotation. Prints CSV: how often that was clear at first and in the
- * end, how often it was no longer clear, and how often another option was clearly best. The last must never happen:
- * exit 1.
+/* Check that a clear verdict is not reversed: for many seeds, find the clearly best option after the first 1000 rocks and after
+ * ten times that number, today and over a rotation. Prints CSV: how often an option was clear first and last, how often it
+ * became unclear, and how often another one became clearly best. The last must never happen: exit 1.
  *
- * bench_verdict [SEEDS [THREADS]]     100 seeds, all cores */
+ *   bench_verdict [SEEDS [THREADS]]     100 seeds, all cores */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -15,13 +14,13 @@
 
 #define SEEDS     100
 #define STEPS     2
-#define YEAR_STEP 5 /* of a rotation some years: the rule for what is clear is the same */
+#define YEAR_STEP 5 /* some years of a rotation; all years use the same rule */
 #define NOBODY    SIZE_MAX
 
 static const uint64_t rocks[STEPS] = {1024, 10240};
 
-/* The option that is clearly best after each step, or nobody. */
-struct said {
+/* The clearly best option after each step, or none. */
+struct leaders {
     size_t best[STEPS];
 };
 
@@ -34,8 +33,8 @@ static size_t clear_best(const struct ceduo_leader *leader)
     return leader->known && leader->rivals == 0 ? leader->best : NOBODY;
 }
 
-static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsigned threads, size_t step, struct said *today,
-                 struct said *rotation)
+static void record(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsigned threads, size_t step,
+                   struct leaders *today, struct leaders *rotation)
 {
     struct ceduo_request q = ceduo_request_default(scene);
     struct ceduo_results answer;
@@ -55,9 +54,9 @@ static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsi
     ceduo_results_release(&answer);
 }
 
-static void count(const struct said *said, struct count *c)
+static void count(const struct leaders *leaders, struct count *c)
 {
-    size_t first = said->best[0], last = said->best[STEPS - 1];
+    size_t first = leaders->best[0], last = leaders->best[STEPS - 1];
     c->first += first != NOBODY;
     c->last += last != NOBODY;
     c->lost += first != NOBODY && last == NOBODY;
@@ -79,10 +78,10 @@ static size_t judge(const char *name, size_t seeds, unsigned threads)
     read_scene(&file, path);
     for (size_t seed = 1; seed <= seeds; seed++) {
         struct ceduo_pool *pool = NULL;
-        struct said now, over;
+        struct leaders now, over;
         file.scene.simulation.seed = seed;
         for (size_t step = 0; step < STEPS; step++)
-            look(&file.scene, &pool, threads, step, &now, &over);
+            record(&file.scene, &pool, threads, step, &now, &over);
         ceduo_pool_free(pool);
         count(&now, &today);
         count(&over, &rotation);

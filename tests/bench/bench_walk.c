@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Speed of the core's walk against a plain C loop, on the slope of Ciabocco et al. 2009, both in this one run, in turn.
+/* Compare the speed of the core's walk with a plain C loop, on the slope of Ciabocco et al. 2009, by turns in one run.
  *
  *   bench_walk [REPEATS [ROCKS]]        default 7, 100000
  *
- * CSV on stdout: medians of wall time; for the core, making the run and flying the rocks, with every sample kept, on
- * the best kernel of the machine or on the one that is named; ratio_to_plain in contacts per second. Agreement of the two,
- * whether all kernels give the same contacts and mean speed, and memory, on stderr. Exit 1 where they disagree. */
+ * CSV on stdout: medians of wall time. For the core they include making the run and simulating the rocks with every sample
+ * kept, on the machine's best kernel or the one named in the row; ratio_to_plain is in contacts per second. Standard error
+ * reports agreement of the two, whether all kernels give equal contacts and mean speed, and memory. Exit 1 if they disagree. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,10 +15,10 @@
 #include "frame.h"
 
 #define MANY_ROCKS 1000000
-#define ROCKS_MIN  1000 /* fewer say nothing about agreement */
+#define ROCKS_MIN  1000 /* fewer cannot show agreement */
 #define AGREE      4.0  /* combined standard errors */
 
-/* Over the rocks of the plain loop; speed and energy of those that passed. */
+/* Sums over the rocks of the plain loop; speed and energy of rocks that passed. */
 struct plain_sums {
     uint64_t rocks, passed, contacts;
     double contacts2, speed, speed2, energy, energy2;
@@ -33,7 +33,7 @@ struct site {
     double plain_rate;            /* contacts per second */
 };
 
-/* One line of the table. */
+/* One row of the table. */
 struct measure {
     const char *what;
     unsigned threads;
@@ -56,7 +56,7 @@ static void init_site(struct site *site, enum ceduo_law law, bool height)
     site->plain = plain_site(&site->paper, site->plain_segments);
 }
 
-/* ---- measuring ---- */
+/* ---- measurement ---- */
 
 static double time_plain(struct site *site, uint64_t rocks, size_t repeat)
 {
@@ -88,7 +88,7 @@ static double time_core(const struct site *site, struct measure *m)
     struct ceduo_run_def def = ceduo_run_def_default(&site->paper.scene);
     def.threads = m->threads;
     def.kernel = m->kernel;
-    struct ceduo_run *run = fly_run(&def, m->rocks);
+    struct ceduo_run *run = simulate_run(&def, m->rocks);
     double seconds = ceduo_clock() - start;
     m->contacts = ceduo_run_contacts(run);
     if (ceduo_run_arrivals(run, 0, &m->arrivals) != CEDUO_OK)
@@ -106,8 +106,8 @@ static void print_line(const struct site *site, const char *what, uint64_t rocks
 
 /* ---- agreement ---- */
 
-/* Mean and standard error from sums. */
-static void mean_of(double sum, double sum2, double n, double *mean, double *se)
+/* Compute mean and standard error from sums. */
+static void compute_mean(double sum, double sum2, double n, double *mean, double *se)
 {
     *mean = sum / n;
     *se = sqrt((sum2 / n - *mean * *mean) / (n - 1));
@@ -128,18 +128,18 @@ static bool check_agreement(const struct site *site, const struct measure *m)
     const struct ceduo_arrivals *a = &m->arrivals;
     double rocks = (double)p->rocks, passed = (double)p->passed, released = (double)a->released, mean, se;
     double core_contacts = (double)m->contacts / released;
-    mean_of((double)p->contacts, p->contacts2, rocks, &mean, &se);
+    compute_mean((double)p->contacts, p->contacts2, rocks, &mean, &se);
     bool good = agrees(site, "contacts per rock", mean, se, core_contacts, se * sqrt(rocks / released));
     double share = passed / rocks, both = (passed + (double)a->reached) / (rocks + released);
-    double spread = sqrt(both * (1 - both)) + 1e-300; /* all pass: they agree */
+    double spread = sqrt(both * (1 - both)) + 1e-300; /* no spread if all pass: they agree */
     good &= agrees(site, "share that passes", share, spread / sqrt(rocks), a->reach.mean, spread / sqrt(released));
-    mean_of(p->speed, p->speed2, passed, &mean, &se);
+    compute_mean(p->speed, p->speed2, passed, &mean, &se);
     good &= agrees(site, "speed, m/s", mean, se, a->speed.mean, a->speed.se);
-    mean_of(p->energy / 1e3, p->energy2 / 1e6, passed, &mean, &se);
+    compute_mean(p->energy / 1e3, p->energy2 / 1e6, passed, &mean, &se);
     return agrees(site, "energy, kJ", mean, se, a->energy.mean / 1e3, a->energy.se / 1e3) && good;
 }
 
-/* ---- the table ---- */
+/* ---- table ---- */
 
 static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
 {
@@ -164,11 +164,11 @@ static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
         seconds = median(core[c].seconds, repeats);
         print_line(site, core[c].what, rocks, seconds, (double)core[c].contacts / seconds);
     }
-    bool same = true;
+    bool equal = true;
     for (size_t c = 1; c < n; c++)
-        same &= core[c].contacts == core[0].contacts && core[c].arrivals.speed.mean == core[0].arrivals.speed.mean;
-    fprintf(stderr, "%s %s kernels and threads: %s\n", site->law, site->roughness, same ? "the same" : "DISAGREE");
-    return check_agreement(site, &core[0]) && same;
+        equal &= core[c].contacts == core[0].contacts && core[c].arrivals.speed.mean == core[0].arrivals.speed.mean;
+    fprintf(stderr, "%s %s kernels and threads: %s\n", site->law, site->roughness, equal ? "the same" : "DISAGREE");
+    return check_agreement(site, &core[0]) && equal;
 }
 
 static void measure_many(const struct site *site, size_t repeats)

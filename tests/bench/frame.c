@@ -13,16 +13,16 @@ void fail(const char *why)
     exit(1);
 }
 
-uint64_t argument(char **argv, int i, uint64_t usual, uint64_t least, uint64_t most)
+uint64_t argument(char **argv, int i, uint64_t usual, uint64_t min, uint64_t max)
 {
     for (int k = 0; k <= i; k++)
         if (!argv[k])
             return usual;
     char *end;
     unsigned long long value = strtoull(argv[i], &end, 10);
-    if (*end != '\0' || value < least || value > most) {
+    if (*end != '\0' || value < min || value > max) {
         fprintf(stderr, "%s: argument %d is a whole number from %llu to %llu\n", program_invocation_short_name, i,
-                (unsigned long long)least, (unsigned long long)most);
+                (unsigned long long)min, (unsigned long long)max);
         exit(2);
     }
     return value;
@@ -55,7 +55,7 @@ void read_scene(struct scene_file *file, const char *path)
     ceduo_problems_free(&problems);
 }
 
-struct ceduo_run *fly_run(const struct ceduo_run_def *def, uint64_t rocks)
+struct ceduo_run *simulate_run(const struct ceduo_run_def *def, uint64_t rocks)
 {
     struct ceduo_run *run;
     if (ceduo_run_create(def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK)
@@ -83,9 +83,9 @@ struct ceduo_slope fine_slope(const struct ceduo_segment *ground, double metres,
 {
     struct ceduo_slope s = slope_new(vertices);
     for (size_t i = 0; i < vertices; i++) {
-        double left = 1 - (double)i / (double)(vertices - 1);
-        s.x[i] = metres * (1 - left);
-        s.z[i] = metres * left * (0.75 + 0.1 * left);
+        double rest = 1 - (double)i / (double)(vertices - 1);
+        s.x[i] = metres * (1 - rest);
+        s.z[i] = metres * rest * (0.75 + 0.1 * rest);
         if (i + 1 < vertices)
             s.segments[i] = *ground;
     }

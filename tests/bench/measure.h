@@ -6,14 +6,14 @@
 
 #include "base/clock.h"
 
-/* For qsort(): numbers, the smallest first. */
+/* Compare numbers for qsort(), ascending. */
 static inline int by_value(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
-/* The values are reordered. */
+/* Reorders the values. */
 static inline double median(double *values, size_t n)
 {
     qsort(values, n, sizeof *values, by_value);

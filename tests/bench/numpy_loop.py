@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The model of tests/physics/slow_walk.c with all rocks of a batch as numpy arrays, on the site of bench_walk.c.
 
-    numpy_loop.py [--check BENCH_WALK] [REPEATS [ROCKS]]        default 3, 20000
+numpy_loop.py [--check BENCH_WALK] [REPEATS [ROCKS]]        default 3, 20000
 
-CSV in the columns of bench_walk on stdout, figures at the control on stderr. With --check the built bench_walk and its
-table come first; exit 1 where the figures of its plain loop differ. A rock's contacts have no limit: all rocks end.
+CSV in the columns of bench_walk on stdout, figures at the control on stderr. With --check the built bench_walk and its table
+come first; exit 1 if the figures of its plain loop differ. The number of contacts has no limit: all rocks end.
 """
 import re
 import subprocess
@@ -16,10 +16,10 @@ import numpy as np
 
 GRAVITY, FRICTION, CONTROL = 9.81, 0.5, 135.0
 RADIUS, MASS, K = (0.56 + 0.80) / 4, np.pi / 4 * 0.56**2 * 0.80 * 2600, 0.5  # a cylinder; k = I/(MR2)
-START = 0.0, 126.0, 0.3, -0.3  # x, z, vx, vz: on the ground and leaving it: a flight comes first
+START = 0.0, 126.0, 0.3, -0.3  # x, z, vx, vz: on the ground, leaving it: a flight comes first
 FRICTION_SPEED, NORMAL_SPEED, SCALING_SPEED = 6.096, 9.144, 76.2  # Pfeiffer & Higgins 1990: 20, 30 and 250 ft/s
-SOON = 1e-9  # s: an earlier root is the contact that the rock is leaving
-BATCH = 4000  # rocks: more would outgrow the cache, fewer would leave most of the time to the interpreter
+SOON = 1e-9  # s: an earlier root is the contact that the rock leaves
+BATCH = 4000  # rocks: more exceed the cache, fewer leave most of the time to the interpreter
 AGREE = 4.0  # combined standard errors
 # Table 3 of Ciabocco et al. 2009: the vertices, and restitutions and roughness of wall, ledge and talus.
 VERTEX_X = np.array([0, 10, 13, 26.95, 42.8, 48.11, 56.36, 70.69, 84.66, 97.43, 115.42, 134.59, 144.33, 152.68])
@@ -33,11 +33,11 @@ ANGLE = np.arctan(SLOPE)
 COSINE, SINE = np.cos(ANGLE), np.sin(ANGLE)
 LENGTHS = np.concatenate(([0], np.cumsum(np.diff(VERTEX_X) / COSINE)))  # along the ground, up to each vertex
 RESTS = np.abs(SLOPE) <= FRICTION
-COLUMN = (slice(None), np.newaxis)  # one row for each segment, to try all of them on all rocks
+COLUMN = (slice(None), np.newaxis)  # one row per segment, to try all of them on all rocks
 
 
 class Rocks:
-    """The rocks under way, each quantity an array."""
+    """Rocks under way, each quantity an array."""
 
     def __init__(self, n):
         self.x, self.z, self.vx, self.vz = (np.full(n, value) for value in START)
@@ -53,27 +53,27 @@ class Rocks:
 
 
 class Run:
-    """One law, and what its rocks came to: lists of arrays."""
+    """One law, and the results of its rocks: lists of arrays."""
 
     def __init__(self, law, roughness):
         self.crsp, self.inertia = law == "crsp", K if law == "crsp" else 0
-        self.facet = np.arctan(ROUGHNESS / RADIUS) if roughness == "height" else ROUGHNESS  # the largest turn
+        self.facet = np.arctan(ROUGHNESS / RADIUS) if roughness == "height" else ROUGHNESS  # largest angle
         self.contacts, self.speed, self.energy = [], [], []
-        self.work = np.empty((5, len(X0) * BATCH))  # a new array each time costs more than what is put into it
+        self.work = np.empty((5, len(X0) * BATCH))  # a new array each time costs more than filling it
 
     def next_hit(self, r, i):
-        """When and on which segment rocks i, all on the ground, strike next; time infinite where they never do."""
+        """Return time and segment of the next hit of rocks i, all on the ground; infinite time: no hit."""
         x, vx, own, rock = r.x[i], r.vx[i], r.segment[i], np.arange(len(r.x[i]))
         b, c, earlier, later, end = self.work[:, :len(X0) * len(own)].reshape(5, len(X0), len(own))
-        np.multiply(SLOPE[COLUMN], -vx / GRAVITY, out=b)  # t = b -+ root(b2 + c), for each segment and rock
+        np.multiply(SLOPE[COLUMN], -vx / GRAVITY, out=b)  # t = b -+ root(b2 + c), per segment and rock
         b += r.vz[i] / GRAVITY
         np.multiply(SLOPE[COLUMN], -2 / GRAVITY * x, out=c)
         c += 2 / GRAVITY * r.z[i]
         c -= 2 / GRAVITY * INTERCEPT[COLUMN]
         c[own, rock] = 0
-        stays = 2 * b[own, rock] <= SOON  # it does not leave the ground at all
+        stays = 2 * b[own, rock] <= SOON  # it never leaves the ground
         c += np.multiply(b, b, out=end)
-        np.sqrt(c, out=c)  # no number where there is no root: no comparison with it holds
+        np.sqrt(c, out=c)  # NaN without a root: every comparison is false
         for t in (np.subtract(b, c, out=earlier), np.add(b, c, out=later)):
             np.multiply(vx, t, out=end)
             end += x
@@ -89,7 +89,7 @@ class Run:
         self.energy.append(0.5 * MASS * speed**2 + 0.5 * K * MASS * RADIUS**2 * spin**2)
 
     def fly(self, r, i, t, segment):
-        """Moves rocks i to their hits; without one they leave the slope."""
+        """Move rocks i to their hits; a rock without a hit leaves the slope."""
         x, vx, vz = r.x[i], r.vx[i], r.vz[i]
         end = x + vx * t
         by = ~r.passed[i] & (x < CONTROL) & (end >= CONTROL)
@@ -100,7 +100,7 @@ class Run:
         r.vz[i], r.segment[i], r.ended[i] = vz - GRAVITY * t, segment, np.isinf(t)
 
     def strike(self, r, random):
-        """All rocks strike facets turned against them, or their segments where they would be leaving the facet."""
+        """Apply the law to all rocks on turned facets, or on their segments if they would be leaving the facet."""
         own, cosine, sine = r.segment, COSINE[r.segment], SINE[r.segment]
         angle = ANGLE[own] + np.copysign(self.facet[own] * random.random(len(own)), r.vx * cosine + r.vz * sine)
         c, s = np.cos(angle), np.sin(angle)
@@ -124,11 +124,11 @@ class Run:
         r.contacts += 1
 
     def is_roll(self, r, i, t, segment):
-        """Whether the flights to the hits stay less than a radius long and high."""
+        """True if the flight to the hit stays within a radius in length and height."""
         x, own, end = r.x[i], r.segment[i], r.x[i] + r.vx[i] * t
         vn = r.vz[i] * COSINE[own] - r.vx[i] * SINE[own]
         ground = LENGTHS[segment] - LENGTHS[own] + (end - X0[segment]) / COSINE[segment] - (x - X0[own]) / COSINE[own]
-        near = (np.abs(end - x) < RADIUS) & (np.abs(ground) < RADIUS)  # neither holds where there is no hit
+        near = (np.abs(end - x) < RADIUS) & (np.abs(ground) < RADIUS)  # both false without a hit
         return near & (vn**2 < 2 * GRAVITY * RADIUS * COSINE[own])
 
     def set_rolling(self, r, i, u):
@@ -136,7 +136,7 @@ class Run:
         r.spin[i] = u / RADIUS if self.crsp else 0
 
     def pass_vertex(self, r, i, way, u2):
-        """Past the ends of their segments: u2 with which rocks i roll on, below 0 for those that fly or are off."""
+        """Pass the ends of the segments: return the u2 with which rocks i roll on, below 0 for those that fly or left."""
         self.set_rolling(r, i, way * np.sqrt(u2))
         before, after = r.segment[i], r.segment[i] + way
         off = (after < 0) | (after == len(X0))
@@ -174,7 +174,7 @@ class Run:
             r.x[i], r.z[i] = end, INTERCEPT[own] + SLOPE[own] * end
             u2, left = u2_end, left - ds
             r.ended[i] = stands & RESTS[own]
-            r.contacts[i] += stands & ~RESTS[own]  # these start anew, downhill
+            r.contacts[i] += stands & ~RESTS[own]  # these restart downhill
             left[stands], way[stands] = RADIUS, 0
             done = ~stands & (left <= 0)
             self.set_rolling(r, i[done], (way * np.sqrt(u2))[done])
@@ -185,7 +185,7 @@ class Run:
             i, u2, left, way = i[on], u2[on], left[on], way[on]
 
     def fly_rocks(self, rocks, seed):
-        """Steps all rocks under way from contact to contact; new ones fill up the batch when a quarter has ended."""
+        """Step all rocks under way from contact to contact; new ones fill the batch after a quarter has ended."""
         random, r = np.random.default_rng(seed), Rocks(0)
         while rocks > 0 or len(r.x) > 0:
             if rocks > 0 and len(r.x) <= BATCH * 3 // 4:
@@ -206,7 +206,7 @@ class Run:
 
 
 def measure(law, roughness, repeats, rocks, plain):
-    """Prints a row of the table and the figures; whether they are those of the plain loop, where there are any."""
+    """Print a row of the table and the figures; true if they equal the plain loop's, if there are any."""
     run, seconds, good = Run(law, roughness), [], True
     for seed in range(1, repeats + 1):
         start = time.perf_counter()
@@ -220,7 +220,7 @@ def measure(law, roughness, repeats, rocks, plain):
     for name, values in figures.items():
         mean, error = values.mean(), values.std() / (len(values) - 1) ** 0.5
         text = f"{law} {roughness} {name:17} numpy {mean:10.4f} +- {error:.4f}"
-        if plain is not None:  # of as many rocks, to four places
+        if plain is not None:  # with the same number of rocks, to four places
             value = plain.get((law, roughness, name), np.nan)
             same = abs(value - mean) <= AGREE * 2**0.5 * error + 0.00005
             text, good = text + f"  plain {value:10.4f}{'' if same else ': DISAGREE'}", good and same
@@ -245,5 +245,5 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    np.seterr(all="ignore")  # what is not a number is meant: no root, no hit
+    np.seterr(all="ignore")  # NaN is intended: no root, no hit
     sys.exit(main(sys.argv[1:]))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The plain walk in double, to measure the core's speed against. */
+/* The plain walk in double, the reference for the core's speed. */
 #ifndef PLAIN_WALK_H
 #define PLAIN_WALK_H
 

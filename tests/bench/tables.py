@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def digits(value, n=3):
-    """A number with n significant digits and no exponent, as far as it is of a size to be read."""
+    """Format a number with n significant digits, without exponent within the readable range."""
     x = float(value)
     if x == 0 or not math.isfinite(x):
         return "0" if x == 0 else "-"
@@ -22,7 +22,7 @@ def digits(value, n=3):
 
 
 def table(head, rows):
-    """An mdoc table; every column as wide as its widest cell."""
+    """Return an mdoc table; each column is as wide as its widest cell."""
     rows = [[str(c) for c in row] for row in rows]
     widths = [max(len(c) for c in column) for column in zip(head, *rows)]
     out = [".Bl -column " + " ".join('"' + "m" * w + '"' for w in widths)]
@@ -44,7 +44,7 @@ class Results:
         with open(self.folder / f"{name}.csv", encoding="utf-8") as f:
             return [r for r in csv.DictReader(f) if all(r[k] == v for k, v in only.items())]
 
-    # ---- one function a table ----
+    # ---- one function per table ----
 
     def machine(self):
         machines = dict.fromkeys(self.machine_of(r["bench"]) for r in self.made)
@@ -157,7 +157,7 @@ class Results:
         return [r for r in self.rows("bench_ground", table=table, **only) if place is None or r["place_m"] == place]
 
     def roughness(self):
-        """A picture: bars of rocks that reach the road, and of their speed above it."""
+        """Draw bars of rocks that reach the road, and of their speed above it."""
         def bars(rows, share_rows):
             speed, share = float(rows["speed_m_s"]), float(share_rows["arrive"])
             return f"{share:4.0f} {'#' * round(share / 100):10}", f"{speed:4.1f} {'#' * round(speed / 4):8}"
@@ -237,7 +237,7 @@ class Results:
         return self.rows("bench_calibration", made_by=law)
 
     def calibration(self):
-        """Shares of the sites with their 95 % intervals, and how far p is from the uniform law."""
+        """Return the shares of the sites with their 95 % intervals, and the distance of p from the uniform law."""
         own, other = self.fits_of("lumped"), self.fits_of("crsp")
         names = ("rn", "rt", "roughness_rad")
         held = {n: [float(r[f"{n}_lo"]) <= float(r[n]) <= float(r[f"{n}_hi"]) for r in own] for n in names}
@@ -258,14 +258,14 @@ class Results:
 
 
 def share(held):
-    """A share in percent, and its 95 % interval (Wilson 1927)."""
+    """Return a share in percent and its 95 % interval (Wilson 1927)."""
     n, p, z = len(held), sum(held) / len(held), 1.96
     middle, half = (p + z * z / (2 * n)) / (1 + z * z / n), z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / (1 + z * z / n)
     return f"{100 * p:.1f} % ({100 * max(0, middle - half):.1f}\\(en{100 * min(1, middle + half):.1f})"
 
 
 def uniform(p):
-    """Distance of Kolmogorov and Smirnov, and how often uniform numbers are as far (Stephens 1970)."""
+    """Return the Kolmogorov-Smirnov distance and its probability for uniform numbers (Stephens 1970)."""
     n = len(p)
     most = max(max(x - i / n, (i + 1) / n - x) for i, x in enumerate(p))
     scaled = most * (math.sqrt(n) + 0.12 + 0.11 / math.sqrt(n))
@@ -273,7 +273,7 @@ def uniform(p):
     return f"{most:.2f} ({min(1, max(0, chance)):.2f})"
 
 
-# How a page marks where a table begins and ends.
+# marks of a table's begin and end
 MARKS = (r'\.\\" begin (\w+)\n.*?\.\\" end \1\n', '.\\" begin {0}\n{1}\n.\\" end {0}\n'), \
     (r"<!-- begin (\w+) -->\n.*?<!-- end \1 -->\n", "<!-- begin {0} -->\n{1}\n<!-- end {0} -->\n")
 

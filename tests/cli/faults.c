@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Put before the C library by LD_PRELOAD: one call of a kind goes wrong. The test says which:
- *   FAULT=memory  FAULT_AT=n  allocation n fails; with FAULT_ON=1 all after it, too
- *   FAULT=ways                none fails; FAULT_WAYS names a file with, for each allocation, which functions it came from
+/* Loaded before the C library by LD_PRELOAD: one call of a kind fails. The environment selects it:
+ *   FAULT=memory  FAULT_AT=n  allocation n fails; with FAULT_ON=1 all later ones, too
+ *   FAULT=ways                nothing fails; FAULT_WAYS names a file for the call path of each allocation
  *   FAULT=call    FAULT_AT=n  call n that opens, writes, syncs, closes, links, renames or removes fails with EIO
- *   FAULT=kill    FAULT_AT=n  SIGKILL just before that call; only the first thread's calls count: the others' come in another
- *                             order each time
+ *   FAULT=kill    FAULT_AT=n  SIGKILL just before that call; counts only the first thread: the order of others varies
  *   FAULT=short               every write takes one byte, or is interrupted
  *   FAULT=threads             no thread can be started
- * FAULT_FROM=name: only what the first thread does once a file of this name was put in its place counts.
- * FAULT_MARK names a file that is made when it happens. After main all goes well again: a build with gcc's --coverage
- * writes its counts then, and fails badly where it cannot. */
+ * FAULT_FROM=name: count only calls of the first thread after a file of this name was renamed into place. FAULT_MARK names a
+ * file that is created at the fault. After main nothing fails: gcc's --coverage then writes its counts, and cannot handle a
+ * failure. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -33,7 +32,7 @@ void *__libc_realloc(void *p, size_t n);
 static enum fault { NOTHING, MEMORY, CALL, KILL, SHORT, THREADS, WAYS } fault;
 static unsigned long fault_at;
 static bool fault_on;
-static const char *fault_from; /* NULL: everything counts */
+static const char *fault_from; /* NULL: count all calls */
 static atomic_bool waits;
 static atomic_ulong count;
 
@@ -57,7 +56,7 @@ static void mark(void)
         syscall(SYS_close, syscall(SYS_openat, AT_FDCWD, path, O_CREAT | O_WRONLY, 0600));
 }
 
-static bool happens(void)
+static bool record_fault(void)
 {
     bool first_only = fault_from || fault == KILL;
     if (atomic_load(&waits) || (first_only && gettid() != getpid()))
@@ -68,7 +67,7 @@ static bool happens(void)
     return n == fault_at || (fault_on && n > fault_at);
 }
 
-/* ---- which functions an allocation came from ---- */
+/* ---- call paths of allocations ---- */
 
 #define WAYS_MAX   (1 << 20)
 #define WAY_FRAMES 16
@@ -93,7 +92,7 @@ static void note_way(void)
     if (busy)
         return;
     busy = true;
-    happens();
+    record_fault();
     unsigned long n = atomic_load(&count);
     struct way way = {0xcbf29ce484222325u, 0};
     _Unwind_Backtrace(add_frame, &way);
@@ -117,7 +116,7 @@ static bool no_memory(void)
 {
     if (fault == WAYS)
         note_way();
-    if (fault != MEMORY || !happens())
+    if (fault != MEMORY || !record_fault())
         return false;
     errno = ENOMEM;
     return true;
@@ -138,10 +137,10 @@ void *realloc(void *p, size_t n)
     return no_memory() ? NULL : __libc_realloc(p, n);
 }
 
-/* True where this call is to fail. */
+/* True if this call must fail. */
 static bool fails(void)
 {
-    if ((fault != CALL && fault != KILL) || !happens())
+    if ((fault != CALL && fault != KILL) || !record_fault())
         return false;
     if (fault == KILL)
         raise(SIGKILL);
@@ -184,7 +183,7 @@ ssize_t write(int fd, const void *bytes, size_t n)
     return fails() ? -1 : syscall(SYS_write, fd, bytes, n);
 }
 
-/* Without memory the disk is not what is looked at, and waiting for it takes most of the time. */
+/* Tests without memory do not need the disk, and waiting for it would take most of the time. */
 int fsync(int fd)
 {
     if (fault == MEMORY)
@@ -195,7 +194,7 @@ int fsync(int fd)
 int close(int fd)
 {
     bool bad = fails();
-    int done = (int)syscall(SYS_close, fd); /* it is closed even so */
+    int done = (int)syscall(SYS_close, fd); /* closed even after a failure */
     return bad ? -1 : done;
 }
 
@@ -234,7 +233,7 @@ static int (*real_main)(int argc, char **argv, char **environment);
 
 static int main_with_faults(int argc, char **argv, char **environment)
 {
-    atexit(end_faults); /* not before: it has to come ahead of what the C library lets do at the end of its own accord */
+    atexit(end_faults); /* registered last, so that it runs before the exit handlers of the C library */
     return real_main(argc, argv, environment);
 }
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the command-line tests share: running the program, scenes to run it on, TAP lines.
+"""Helpers of the command-line tests: running the program, scenes, TAP lines.
 
-The program is the one that the environment's CEDUO names, or ./ceduo of this source tree.
+The program is $CEDUO, or ./ceduo of this source tree.
 """
 import difflib
 import json
@@ -20,7 +20,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 for number, usual in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
-    if signal.getsignal(number) == signal.SIG_IGN:  # in the background of a shell, under nohup; the program would ignore it, too
+    if signal.getsignal(number) == signal.SIG_IGN:  # in a background shell, under nohup; the program would ignore it, too
         signal.signal(number, usual)
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -28,20 +28,20 @@ PROFILES = ROOT / "profiles"
 CEDUO = str(Path(os.environ.get("CEDUO") or ROOT / "ceduo").resolve())
 
 PROGRAM = Path(CEDUO).read_bytes() if Path(CEDUO).exists() else b""
-SANITIZED = b"__asan_init" in PROGRAM or b"__tsan_init" in PROGRAM  # they need memory of their own, and time
-FULL = "FULL" in os.environ  # make check-all: what depends on the number of rocks has as many as it can use
-SLOWER = 5 if b"__llvm_profile" in PROGRAM else 10 if SANITIZED else 1  # by so much what hangs is waited for
-PATIENCE = 600 * SLOWER  # seconds until what has not come or ended counts as hanging: none is ever waited for in full
+SANITIZED = b"__asan_init" in PROGRAM or b"__tsan_init" in PROGRAM  # they need more memory and time
+FULL = "FULL" in os.environ  # make check-all: tests that depend on the number of rocks use more rocks
+SLOWER = 5 if b"__llvm_profile" in PROGRAM else 10 if SANITIZED else 1  # factor for the time limit of a hang
+PATIENCE = 600 * SLOWER  # seconds after which a process counts as hanging; a passing test never waits this long
 
 DONE, RUN, USAGE, INPUT, OUTPUT = range(5)  # exit statuses
 
 
 class Failure(AssertionError):
-    """An expectation that was not met; its text becomes the '# detail' lines."""
+    """An expectation failed; its text becomes the '# detail' lines."""
 
 
 class Skip(Exception):
-    """This machine lacks what the test needs."""
+    """This machine lacks a requirement of the test."""
 
 
 def expect(condition, *details):
@@ -88,17 +88,17 @@ SCHEMAS, VALID = {}, set()
 
 
 def validator():
-    """The class of the validators of JSON Schema; imported here because that takes longer than most tests."""
+    """Return the class of JSON Schema validators; imported here because the import takes longer than most tests."""
     try:
         import jsonschema
-    except ImportError:  # another Python than the system's comes first
+    except ImportError:  # another Python precedes the system's
         sys.path.append("/usr/lib/python3/dist-packages")
         import jsonschema
     return jsonschema.Draft202012Validator
 
 
 def parts_of(value, path=""):
-    """Each place of an answer with its keys, its word, or the kind of its value."""
+    """Return each place of an answer with its keys, its word, or the kind of its value."""
     if isinstance(value, dict):
         yield path, tuple(value)
         for key, inner in value.items():
@@ -111,7 +111,7 @@ def parts_of(value, path=""):
 
 
 def expect_schema(answer):
-    """An answer in JSON is as --schema says of its format. To look takes long: in `make check` only if a part is unlike all before."""
+    """Expect JSON to match --schema. Validation is slow: `make check` validates only answers with a new part."""
     name, parts = answer["format"], {(answer["format"], *part) for part in parts_of(answer)}
     if VALID >= parts and not FULL:
         return
@@ -129,7 +129,7 @@ def no_constant(word):
 
 
 def environment(**changes):
-    """That of the caller without what would change the output; None takes a variable out."""
+    """Return the caller's environment without variables that change the output; None removes a variable."""
     env = dict(os.environ)
     for name in list(env):
         if name.startswith("LC_") or name in ("LANG", "LANGUAGE", "NO_COLOR", "XDG_DATA_HOME", "XDG_DATA_DIRS"):
@@ -143,19 +143,19 @@ def environment(**changes):
     return env
 
 
-# Control characters but line ends, what breaks lines or turns the order of text, and what Unicode keeps for no character.
+# Control characters except line ends, line separators, bidirectional controls, and noncharacters of Unicode.
 NO_TEXT = re.compile("[\0-\x09\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufdd0-\ufdef"
                      + "".join(chr(plane << 16 | 0xfffe) + chr(plane << 16 | 0xffff) for plane in range(17)) + "]")
 
 
 def only_text(data, what):
-    """No escape sequence can hide in it, and any page can hold it."""
+    """Expect no hidden escape sequence, so that any page can contain the text."""
     bad = sorted(set(NO_TEXT.findall(data.decode("utf-8", "replace"))))
     expect(not bad, f"{what} holds control characters {ascii(bad)}:", repr(data[:2000]))
 
 
 def ceduo(*arguments, stdin=b"", env=None, cwd=ROOT, **options):
-    """Runs the program to its end. A crash, a hang or a control character in its output is a failure everywhere."""
+    """Run the program to its end. A crash, a hang or a control character in its output fails the test."""
     command = [CEDUO, *map(str, arguments)]
     start = time.monotonic()
     try:
@@ -171,32 +171,33 @@ def ceduo(*arguments, stdin=b"", env=None, cwd=ROOT, **options):
 
 
 def processor_seconds(pid):
-    """What a process that runs has taken of processors so far. On a machine with much to do this and the next tell better than a clock
-    how soon a process ends."""
+    """Return the processor time of a running process so far. On a busy machine this and the next function are more reliable
+    than the clock."""
     times = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
     return (int(times[11]) + int(times[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def children_seconds():
-    """What all processes that were waited for have taken of processors."""
+    """Return the processor time of all finished child processes."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
 def without_unusual(err):
-    """Standard error without warnings about unusual numbers, which many tests have on purpose; test_set.py has these warnings."""
+    """Return standard error without warnings of unusual numbers, which many tests use on purpose; test_set.py tests the
+    warnings."""
     return re.sub(r"(?m)^.* is unusual \(usual: .*\n(?:  .*\n|\d+ more problems?\n)*", "", err)
 
 
 def good(*arguments, **options):
-    """Runs the program: status 0 and nothing on standard error, but what is unusual."""
+    """Run the program: status 0, and nothing on standard error except warnings of unusual numbers."""
     result = ceduo(*arguments, **options)
     expect(result.status == DONE and without_unusual(result.err) == "", result)
     return result
 
 
 def results(*arguments, **options):
-    """The JSON of a good batch run, one object a scene."""
+    """Return the JSON of a good batch run, one object per scene."""
     return good("--batch", "-f", "json", *arguments, **options).json()
 
 
@@ -205,7 +206,7 @@ def result(*arguments, **options):
 
 
 def together(*calls):
-    """Makes calls that wait, side by side; the first failure of them is raised."""
+    """Run blocking calls in parallel; raise the first failure."""
     with ThreadPoolExecutor(len(calls)) as pool:
         for made in [pool.submit(*call) for call in calls]:
             made.result()
@@ -227,12 +228,12 @@ class Folder:
         path = self.path / name
         path.parent.mkdir(parents=True, exist_ok=True)
         if isinstance(content, dict):
-            content = json.dumps(content)  # flow YAML is a superset of it
+            content = json.dumps(content)  # flow YAML includes JSON
         path.write_bytes(content.encode() if isinstance(content, str) else content)
         return path
 
     def profiles(self):
-        """A copy of the shipped profiles, to be changed."""
+        """Copy the shipped profiles, to change them."""
         shutil.copytree(PROFILES, self.path / "profiles")
         return self.path / "profiles"
 
@@ -241,7 +242,7 @@ class Folder:
 
 
 def scene(**changes):
-    """A small scene as a mapping: a straight slope of 100 m whose rocks all come down."""
+    """Return a small scene as a mapping: a straight slope of 100 m; all rocks reach its end."""
     mapping = {
         "ceduo": "scene/1",
         "title": "small",
@@ -267,7 +268,7 @@ def stand(**changes):
 
 
 def wooded_scene(**changes):
-    """A scene whose rocks fly: of those that the wood lets through some come to rest below it, and no two do the same."""
+    """Return a scene with flying rocks: some that pass the forest stop below it, and no two are equal."""
     mapping = {"title": "a wood below a cliff",
                "rock": {"shape": "sphere", "diameter_m": 0.75, "density_kg_m3": 2600},
                "release": {"vx_m_s": 2},
@@ -282,12 +283,12 @@ def wooded_scene(**changes):
 
 
 def belt(from_m, to_m, **changes):
-    """A belt of the small stand, changed."""
+    """Return a belt of the small stand, changed."""
     return {"from_m": from_m, "to_m": to_m, "stand": stand(**changes)}
 
 
 def of_today(option):
-    """An option of JSON without what the years decide: them, their window and the answer over them."""
+    """Return an option of JSON without its years, their window and the answer over them."""
     controls = [{**c, "verdict": {"today": c["verdict"]["today"]}} for c in option["controls"]]
     return {**option, "controls": controls, "years": None, "rotation": None, "window": None}
 
@@ -308,7 +309,7 @@ class Suite:
             note = f" # SKIP {skip}"
         except Failure as failure:
             word, details = "not ok", str(failure)
-        except Exception:  # a broken test must not hide those after it
+        except Exception:  # a broken test must not hide later ones
             word, details = "not ok", traceback.format_exc()
         self.failed += word != "ok"
         print(f"{word} {self.count} - {name.replace('#', '')}{note}", flush=True)
@@ -316,11 +317,11 @@ class Suite:
             print(f"# {seconds:.1f} s of processor")
         for line in details.splitlines()[:60]:
             print("#", "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line))
-        if self.failed and os.environ.get("TEST_FIRST"):  # the first failure is enough
+        if self.failed and os.environ.get("TEST_FIRST"):  # stop after the first failure
             self.end()
 
     def run(self, functions):
-        """Each function is a test; its name is the first line of its docstring."""
+        """Run each function as a test; its name is the first line of its docstring."""
         for function in functions:
             self.check(function.__doc__.strip().splitlines()[0].rstrip("."), function)
 
@@ -331,13 +332,13 @@ class Suite:
 
 
 def tests_of(module):
-    """The functions test_… of a module in the order of their source."""
+    """Return the functions test_… of a module in source order."""
     found = [f for name, f in vars(module).items() if name.startswith("test_") and callable(f)]
     return sorted(found, key=lambda f: f.__code__.co_firstlineno)
 
 
 def run_all(name):
-    """Runs all tests of the module of that name, and ends the program."""
+    """Run all tests of the module of that name, and end the program."""
     suite = Suite()
     suite.run(tests_of(sys.modules[name]))
     suite.end()

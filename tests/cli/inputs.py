@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A scene of three files that the tests of bad input change, and what is expected of a message: its place, its line, a caret."""
+"""A scene of three files that the tests of bad input change, and the expected parts of a message: place, line, caret."""
 import re
 from pathlib import Path
 
@@ -57,7 +57,7 @@ def safe(text):
 
 
 def expect_places(err, contents):
-    """Every problem of a known file has its line and a caret below the right character. Returns the problems."""
+    """Expect a line and a caret below the right character for each problem in a known file. Returns the problems."""
     lines, i, found = err.splitlines(), 0, []
     while i < len(lines):
         place = PLACE.fullmatch(lines[i])
@@ -71,7 +71,7 @@ def expect_places(err, contents):
         if source is None:
             continue
         rows = source.replace("\r\n", "\n").split("\n")
-        if (line, column) == (len(rows) + 1, 1):  # the end of the file; test_unclosed looks at it
+        if (line, column) == (len(rows) + 1, 1):  # end of the file; tested by test_unclosed
             continue
         expect(1 <= line <= len(rows), f"line {line} of {len(rows)}:", err)
         mark = line == 1 and source.startswith("\ufeff")  # takes no column
@@ -81,7 +81,7 @@ def expect_places(err, contents):
             continue
         shown = safe(row)[:20] if line == 1 else ""
         known = name.endswith(".csv") or re.search("ceduo[\"' :]*[a-z]+/[0-9]", source[:4096])
-        if not known and shown != safe(row):  # of a file that does not say that it is one of ceduo's no more is shown
+        if not known and shown != safe(row):  # an unrecognized file is shown no further
             expect(lines[i].startswith(f"  {shown}… (nothing says"), "the beginning is missing:", err)
             i += 1 + (lines[i + 1:i + 2] != [] and lines[i + 1].strip() == "^")
             continue
@@ -91,7 +91,7 @@ def expect_places(err, contents):
         if column <= 100:
             expect(shown.startswith("  " + safe(row)[:90]), "another line is shown:", repr(shown), repr(row), err)
             expect_equal(len(caret) - 1, 2 + len(safe(row[:column - 1]).replace("\ufeff", "")), "caret" + "\n" + err)
-        else:  # a long line is shown in part: the right character stands above the caret
+        else:  # a long line is shown partly: the right character is above the caret
             expect(len(shown) <= 420, "too long a line is shown")
             here = safe(row[column - 1:column])
             expect(here == "" or shown[len(caret) - 1:].startswith(here), "caret", err)
@@ -103,7 +103,7 @@ MODES = ("--check", "--batch")
 
 
 def check(folder, path, *arguments, modes=MODES, **options):
-    """A bad scene: status 3, nothing on stdout, within 20 s of processor, both to check and to run."""
+    """Expect status 3, nothing on stdout, within 20 s of processor time, for --check and for a run."""
     for mode in modes:
         before = children_seconds()
         done = ceduo(mode, *arguments, path, cwd=folder.path, **options)
@@ -113,7 +113,7 @@ def check(folder, path, *arguments, modes=MODES, **options):
 
 
 def mutated(name, old, new):
-    """The three files with a change in one; '@@' in the new text marks the place of the fault."""
+    """Return the three files with a change in one; '@@' in the new text marks the place of the error."""
     expect_equal(FILES[name].count(old), 1, f"{old!r} in {name}")
     text, place = FILES[name].replace(old, new), None
     if "@@" in text:
@@ -124,6 +124,6 @@ def mutated(name, old, new):
 
 
 def flat_scene():
-    """The scene in one file."""
+    """Return the scene in one file."""
     return SCENE.replace("slope: slope.yaml", "slope: {vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}"
                          ).split("forest:")[0].encode()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes that are in order and whose rocks are much work, and what the program still takes to notice that it shall end."""
+"""Valid scenes with expensive rocks, and the time that the program needs to notice its end."""
 import os
 import pty
 import signal
@@ -10,20 +10,20 @@ from harness import CEDUO, PATIENCE, children_seconds, environment, expect, proc
 
 
 def dense_trees(per_ha, **changes):
-    """A wood of nothing but trees, which take hardly anything from a rock."""
+    """Return a forest of trees that take hardly any energy."""
     return stand(stools=None, shoots=None, trees=[{"per_ha": per_ha, "dbh_m": 0.02, "height_m": 10, "volume_m3": 1e-9}],
                  **changes)
 
 
 def long_slope(metres, belts_to, per_ha, **changes):
-    """A straight slope on which rocks go on for ever, with trees that do not stop them."""
+    """Return a straight slope on which rocks never stop, with trees that do not stop them."""
     slope = {"vertices_m": [[0, metres / 2], [metres, 0]], "segments": [{"rn": 0.3, "rt": 0.99, "friction": 0.1}]}
     return scene(slope=slope, controls=[{"x_m": metres - 1}], release={"vx_m_s": 20},
                  forest=[{"from_m": 0, "to_m": belts_to, "stand": dense_trees(per_ha)}], **changes)
 
 
 def rough_slope(vertices):
-    """As many vertices as a file may hold, over which a large rock rolls without an end."""
+    """Return the maximum number of vertices of a file, over which a large rock rolls for ever."""
     points = [[i * 0.01, (vertices - i) * 0.005 + (i % 2) * 1e-4] for i in range(vertices)]
     return scene(rock={"diameter_m": 100}, slope={"vertices_m": points, "segments": [{"rn": 0, "rt": 1, "friction": 0}]},
                  release={"x_m": 1, "vx_m_s": 0.01}, controls=[{"x_m": (vertices - 2) * 0.01, "accepted_kJ": 1}])
@@ -39,7 +39,7 @@ LONG = {
 
 
 class Running:
-    """The program under way; `with Running(…) as r:`."""
+    """The running program; `with Running(…) as r:`."""
 
     def __init__(self, *arguments, terminal=False):
         command = [CEDUO, *map(str, arguments)]
@@ -69,7 +69,7 @@ class Running:
             os.close(self.fd)
 
     def read(self, seconds, until=None):
-        """What the terminal program draws is taken away, so that it never waits for its terminal."""
+        """Discard the terminal program's output, so that it never blocks."""
         os.set_blocking(self.fd, False)
         end, seen = time.monotonic() + seconds, b""
         while time.monotonic() < end and not (until and until in seen):
@@ -79,7 +79,7 @@ class Running:
                 time.sleep(0.001)
 
     def work(self, seconds):
-        """Lets it work so long, a terminal program from its first screen on; it must not be done."""
+        """Let it work for some time, a terminal program from its first screen on; it must not finish."""
         if self.fd is not None:
             self.read(PATIENCE, b"quit")
             self.read(seconds)
@@ -88,7 +88,7 @@ class Running:
         expect(os.waitpid(self.pid, os.WNOHANG)[0] == 0, "it ended before it was told to")
 
     def end(self, tell):
-        """Tells it to end and waits for it; how it ended, and the seconds of the clock and of processor that it still took."""
+        """Ask it to end and wait; return how it ended, and the seconds of clock and processor it needed."""
         before, begin = children_seconds() + processor_seconds(self.pid), time.monotonic()
         tell()
         while time.monotonic() < begin + PATIENCE:

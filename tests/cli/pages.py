@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the tests of --batch read a page: its tables, their rows and cells, the text of one option."""
+"""Helpers to read a page of --batch: its tables, rows and cells, the text of one option."""
 import functools
 import math
 import re
@@ -8,12 +8,12 @@ import unicodedata
 from harness import expect, expect_equal, expect_in, expect_near
 
 
-# The whole page; what is not known is left out, as most tests look at other figures and it takes a second.
+# The whole page without uncertainty, which takes a second: most tests read other figures.
 WHOLE = ("--batch", "--details", "-s", "uncertainty=none")
 
 
 def expect_order(text, *parts):
-    """The parts stand in the text in this order. Runs of blanks count as one."""
+    """Expect the parts in this order. Runs of blanks count as one."""
     plain, at = re.sub(r"\s+", " ", text), 0
     for part in parts:
         found = re.search(part, plain[at:])
@@ -27,7 +27,7 @@ def expect_width(text):
 
 
 def digits(value, n):
-    """A number of the page: so many significant digits, a dash where there is none."""
+    """Return a number of the page: significant digits, or a dash for null."""
     if value is None:
         return "-"
     if value == 0:
@@ -37,24 +37,24 @@ def digits(value, n):
 
 
 def of_1000(lo_name, arrivals):
-    """'991 (984–995)' of the page."""
+    """Return '991 (984–995)' as on the page."""
     share, lo, hi = (arrivals[f"{lo_name}_{k}"] for k in ("probability", "lo", "hi"))
     return "-" if share is None else f"{share * 1000:.0f} ({math.floor(lo * 1000)}–{math.ceil(hi * 1000)})"
 
 
 def table_row(text, name):
-    """The lines of a table that begin with a name."""
+    """Return the lines of a table that begin with a name."""
     return [line for line in text.splitlines() if line.strip().startswith(name)]
 
 
 def expect_cells(line, *cells):
-    """A line of a table holds these cells, with a blank between any two."""
+    """Expect a table line with these cells, separated by blanks."""
     wanted = r"\s+".join(re.escape(c).replace(r"\ ", " ") for c in cells)
     expect(re.search(rf"(^|\s){wanted}(\s|$)", line), f"'{'  '.join(cells)}' is missing in: {line!r}")
 
 
 def section(text, name):
-    """What the page says of one option."""
+    """Return the page's section on one option."""
     lines = text.splitlines()
     first = next((i for i, line in enumerate(lines) if line == name), None)
     expect(first is not None, f"no option '{name}' in:", text)
@@ -67,7 +67,7 @@ SIDES = {"with forest": "wooded", "without forest": "bare"}
 
 
 def arrivals_of(text):
-    """The tables of what arrives, one after another: [{"wooded" or "bare": {name of a row: cell}}]."""
+    """Return the tables of arrivals, in order: [{"wooded" or "bare": {name of a row: cell}}]."""
     tables, sides = [], []
     for line in text.splitlines():
         head = re.match(r"^  of 1000 +((?:with|without) forest)(?: +(without forest))?$", line)
@@ -85,7 +85,7 @@ def arrivals_of(text):
 
 @functools.cache
 def student(freedom):
-    """The 97.5 % quantile of Student's law: its density, summed by Simpson's rule from 0 on, comes to 0.475 there."""
+    """Return the 97.5 % quantile of Student's law: its density, integrated by Simpson's rule from 0, reaches 0.475 there."""
     scale = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)
 
     def density(t):
@@ -99,7 +99,7 @@ def student(freedom):
 
 
 def half_of_mean(figure, count):
-    """Half the width of the 95 % interval of a mean."""
+    """Return half the width of the 95 % interval of a mean."""
     return figure["se"] * student(count - 1)
 
 
@@ -135,7 +135,7 @@ def expect_arrivals(rows, arrivals):
 
 
 def expect_option(text, option, alone=True):
-    """The page of an option says what the JSON of the same run holds; of one of several the slope without forest stands elsewhere."""
+    """Expect the page of an option to equal the JSON of the same run; with several options the bare slope has its own section."""
     flat_text = re.sub(r"\s+", " ", text)
     tables = arrivals_of(text)
     flown = option["controls"][0]["wooded"] is not None
@@ -166,7 +166,7 @@ def expect_option(text, option, alone=True):
 
 
 def side_by_side(text, names):
-    """The table of the options and all that the page says: its head, {name: its line}, the page in one line."""
+    """Return the table of options and the page: head, {name: its line}, the page in one line."""
     lines = text[text.lower().index("\nside by side"):].split("\n\n")[0].strip().splitlines()
     head = next(i for i, line in enumerate(lines) if line.strip().startswith("option"))
     rows = lines[head + 1:head + 1 + len(names)]
@@ -184,7 +184,7 @@ BLOCK = re.compile(r"^ {2}([> ]) +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+|none) +(
 
 
 def blocks_of(text):
-    """The table of blocks of other sizes: [(own, volume, mass, diameter, ADC, contacts, of 1000)]."""
+    """Return the table of other block sizes: [(own, volume, mass, diameter, ADC, contacts, per 1000)]."""
     lines = text.splitlines()
     first = next(i for i, line in enumerate(lines) if "Blocks of other sizes" in line)
     first = next(i for i in range(first, len(lines)) if lines[i].split()[:2] == ["m\u00b3", "kg"]) + 1

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was seen on the slope of a random scene: all kinds, at the ends of the slope too, and now and then a thing that is
-wrong. It is drawn from numbers of its own, so that the scene is the same with it and without."""
+"""Observations on the slope of a random scene: all kinds, also at the slope's ends, sometimes with an error. They have their
+own random numbers, so that the scene does not depend on them."""
 import math
 import random
 
-SHARE, WRONG = 0.25, 0.25  # of scenes that have some; of those in which one thing is wrong
+SHARE, WRONG = 0.25, 0.25  # share of scenes with observations; share of these with one error
 
 
 class Seen:
@@ -15,20 +15,20 @@ class Seen:
         self.lo, self.hi = case.xs[0], case.xs[-1]
 
     def place(self, lo):
-        """On the slope from lo on, one time in three at an end."""
+        """Draw a place on the slope from lo on, one in three at an end."""
         return self.rng.choice([lo, self.hi, *[min(max(self.rng.uniform(lo, self.hi), lo), self.hi) for _ in range(4)]])
 
     def beyond_release(self):
         return self.place(math.nextafter(self.case.last_start, math.inf))
 
     def stretch(self):
-        """Its ends, or None where the slope is too short for one."""
+        """Return two ends, or None if the slope is too short."""
         a, b = sorted([self.place(self.lo), self.place(self.lo)])
         a, b = (a, b) if a < b else (self.lo, self.hi)
         return {"from_m": a, "to_m": b}
 
     def sample(self, most):
-        """Values, or their mean."""
+        """Return values, or their mean."""
         rng = self.rng
         if rng.random() < 0.4:
             return {"mean": rng.choice([0, rng.uniform(0, most)]), "sd": rng.choice([0, most, rng.random()]),
@@ -78,7 +78,7 @@ class Seen:
         return row
 
     def spoil(self, rows):
-        """One row that must be refused, and the key that the refusal names."""
+        """Return one invalid row, and the key that the message names."""
         at, off = self.rng.choice([0.5, 1e3]), self.rng.choice([self.lo - 1, self.hi + 1])
         end = math.nextafter(self.case.last_start, math.inf)
         wrong, key = self.rng.choice([
@@ -100,7 +100,7 @@ class Seen:
 
 
 def draw(case):
-    """Puts `observed` into a scene in which nothing is wrong yet."""
+    """Add `observed` to a valid scene."""
     seen = Seen(case)
     if case.broken or seen.rng.random() > SHARE or seen.hi - seen.lo < 1e-3 or seen.lo - 1 == seen.lo:
         return

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Random scenes from the program's own table of parameters.
 
-The table says which parameters there are, of what type, in which range; what it cannot say stands here: how a profile, a rock,
-belts and stools hang together, and for some parameters what is usual. A parameter that is new in the table is drawn as its row
-says, without a change here.
+The table has each parameter's type and range. This file adds the rest: how a profile, a rock, belts and stools fit together,
+and usual values of some parameters. A new parameter is drawn from its row without a change here.
 """
 import json
 import math
@@ -17,8 +16,8 @@ import random_observed
 ROW = re.compile(r"(\S+)\s+((?:\d+ )?\S+)\s+(\S+)\s+((?:>=? )?\S+)\s+(\S+)\s+(.*)")
 HEAD = ["path", "type", "unit", "range", "default", "meaning"]
 TYPES = {"text", "word", "words", "flag", "number", "number~", "numbers", "3 numbers~", "count", "points", "file"}
-MOST = 1e9         # of a number whose range says none
-COUNT_MOST = 2**53  # of a count
+MOST = 1e9         # for a number without a range
+COUNT_MOST = 2**53  # for a count
 
 
 class Parameter:
@@ -29,8 +28,8 @@ class Parameter:
         self.key = path.split(".")[-1]
         self.words = limits.split("|") if kind == "word" else []
         self.lo = self.hi = None
-        self.above = self.under = False  # an end of the range that is no part of it
-        self.rounded = 0.0               # by so much the end that is shown may lie beyond the true one
+        self.above = self.under = False  # an excluded end of the range
+        self.rounded = 0.0               # the shown end may exceed the true one by this factor
         if kind != "word" and limits != "-":
             self.read_limits(limits)
 
@@ -71,7 +70,7 @@ class Table:
             node[key] = parameter
 
 
-# ---- what is usual: most values of tame scenes, many of wild ones ----
+# ---- usual values: most in tame scenes, many in wild ones ----
 
 USUAL = {
     "rock.diameter_m": (0.1, 3), "rock.height_m": (0.1, 3), "rock.axes_m": (0.1, 3), "rock.volume_m3": (1e-3, 30),
@@ -107,7 +106,7 @@ USUAL = {
     "rocks_per_year": (0.1, 100), "minimum.reserves_per_ha": (0, 100),
 }
 
-# Keys that may be left out, though the table names no default. Others are seldom left out.
+# Optional keys without a default in the table. Others are rarely omitted.
 OPTIONAL = {"name", "accepted_kJ", "measured_speed_m_s", "cut_year", "system", "species", "volume_m3", "age_y", "u_J_m3", "fracture_ratio", "hit_below_m",
             "sdi_most", "stay_per_ha", "shoots_young", "shoots_old", "rocks_per_year"}
 GROUPS = {"shoots": 0.85, "trees": 0.85, "energy": 0.4, "growth": 0.4, "cutting": 0.4}  # shares of scenes that have them
@@ -117,14 +116,14 @@ SIZES = {"sphere": [["diameter_m"], ["volume_m3"], ["mass_kg"]], "cylinder": [["
 DIAMETERS = ("dbh_sd_m", "dbh_cm", "dbh_sd_cm")
 ALL_SIZES = {"diameter_m", "height_m", "axes_m", "volume_m3", "mass_kg", "density_kg_m3"}
 
-TOLERANCE = 0.5  # m: of profiles whose ground comes from the library
+TOLERANCE = 0.5  # m: for profiles with ground from the library
 
 NAMES = ["road", "Straße 7", "house, \"old\"", "l'orto", "a; b", "x: y # z", "% \\ {1}", "日本の道", "naïve", "é", "- 1", "~",
          "wall\tand fence", "one\ntwo", "bell\u0007", "a name that is rather longer than the column in which it is to stand",
          "word" * 30, " ", "null", "1e3", "[0]", "=SUM(A1)"]
 SOURCES = ["measured", "literature", "assumed", "calibrated"]
 
-# What stands beside a scene and changes no figure of a run: it is drawn apart, random_observed.py, or by tests of their own.
+# Parts that change no figure of a run: drawn separately (random_observed.py), or by their own tests.
 BESIDE_KEYS = ("observed", "rules")
 BESIDE = ("observed[]", "rules.", "forest[].stand.uncertainty[]")
 
@@ -138,21 +137,21 @@ def three_digits(value):
 
 
 class Case:
-    """A scene: its files, what it is made of, and how it is to be run."""
+    """A scene: its files, its parts, and how to run it."""
 
     def __init__(self, index):
         self.index = index
         self.name = f"s{index}.yaml"
-        self.files = {}     # others than the scene's own
+        self.files = {}     # more than the scene's own
         self.scene = None
-        self.broken = None  # why it must be refused
-        self.key = None     # which the refusal must name
+        self.broken = None  # reason for a refusal
+        self.key = None     # named by the refusal
         self.drawn = []     # (mapping, key, parameter) of single values
         self.used = set()   # paths of parameters
         self.words = set()  # (path, word)
-        self.ends = set()   # (path, end) at which a value stands
+        self.ends = set()   # (path, end) of values at an end
         self.tolerance = 0  # m: of the profile
-        self.belts = []     # of each option: [(from, to, whole stand)]
+        self.belts = []     # per option: [(from, to, whole stand)]
 
     def text(self):
         return yaml(self.scene)
@@ -166,15 +165,15 @@ class Maker:
         self.rng = random.Random(f"scene {index}")
         self.case = Case(index)
         tame = self.chance(0.5)
-        self.usual = 0.97 if tame else 0.5  # share of values that are usual
-        self.endless = self.chance(0.005)  # ground that takes nothing
-        self.edges = 0.01 if tame else 0.1  # share of values at an edge
+        self.usual = 0.97 if tame else 0.5  # share of usual values
+        self.endless = self.chance(0.005)  # ground that takes no energy
+        self.edges = 0.01 if tame else 0.1  # share of values at a limit
 
     def chance(self, share):
         return self.rng.random() < share
 
     def between(self, lo, hi):
-        """Log-uniform where both are above 0."""
+        """Draw log-uniform if both are above 0."""
         if lo > 0:
             return clamp(math.exp(self.rng.uniform(math.log(lo), math.log(hi))), lo, hi)
         return self.rng.uniform(lo, hi)
@@ -182,7 +181,7 @@ class Maker:
     # ---- single values ----
 
     def bounds(self, p):
-        """The least and the largest value allowed."""
+        """Return the smallest and the largest allowed value."""
         lo = -MOST if p.lo is None else p.lo
         hi = (COUNT_MOST if p.kind == "count" else MOST) if p.hi is None else p.hi
         if p.kind == "count":
@@ -198,7 +197,7 @@ class Maker:
         step = 1 if p.kind == "count" else 0
         which = self.rng.choice(["lo", "lo", "hi", "hi", "beside lo", "beside hi", "tiny", "huge"])
         if p.above and lo < 1e-300 and "lo" in which and self.chance(0.8):
-            which = "tiny"  # the least number above 0 is seldom of use
+            which = "tiny"  # the smallest number above 0 is rarely useful
         if which in ("lo", "hi"):
             if (p.lo if which == "lo" else p.hi) is not None:
                 self.case.ends.add((p.path, which))
@@ -213,7 +212,7 @@ class Maker:
         return clamp(size if lo >= 0 or self.chance(0.5) else -size, lo, hi)
 
     def inside(self, p):
-        """Log-uniform over six decades below the ends."""
+        """Draw log-uniform over six decades below the ends."""
         lo, hi = self.bounds(p)
         if p.lo is not None and lo > 0 and p.lo > 0:
             return self.between(lo, hi)
@@ -223,7 +222,7 @@ class Maker:
         return clamp(hi * size, lo, hi)
 
     def number(self, p):
-        """A value in the range of a parameter."""
+        """Draw a value in the range of a parameter."""
         lo, hi = self.bounds(p)
         if self.chance(self.edges):
             value = self.at_edge(p)
@@ -235,7 +234,7 @@ class Maker:
         return clamp(three_digits(value), lo, hi) if self.chance(0.7) else clamp(value, lo, hi)
 
     def spread(self, p):
-        """A number, or now and then one that differs from rock to rock."""
+        """Draw a number, or sometimes a distribution over rocks."""
         mean = self.number(p)
         if not self.chance(0.08):
             return mean
@@ -244,7 +243,7 @@ class Maker:
         kind = self.rng.choice(["normal", "uniform", None])
         room = min(mean - lo, hi - mean) / (1 if kind == "uniform" else 3)
         share = self.rng.choice([0, self.rng.random(), 10.0 ** self.rng.uniform(-12, 0), 0.999, 0.999])
-        if p.lo == 0 and p.hi == 1:  # cut there by drawing again
+        if p.lo == 0 and p.hi == 1:  # truncated there by drawing again
             room = self.rng.choice([room, 1, 1e6])
         if not self.chance(0.1):
             mapping["spread"] = room * share
@@ -256,7 +255,7 @@ class Maker:
         return self.rng.choice(NAMES)
 
     def value(self, p, to):
-        """Draws a value of a parameter and puts it into a mapping."""
+        """Draw a value of a parameter and store it in a mapping."""
         self.case.used.add(p.path)
         if p.kind in ("number", "count"):
             to[p.key] = self.number(p)
@@ -279,7 +278,7 @@ class Maker:
             self.case.drawn.append((to, p.key, p))
 
     def forget(self, mapping):
-        """A mapping is copied into a file: to make it wrong here would change nothing."""
+        """Drop a mapping that was copied into a file: an error here would have no effect."""
         self.case.drawn = [d for d in self.case.drawn if d[0] is not mapping]
 
     # ---- groups ----
@@ -292,7 +291,7 @@ class Maker:
         return self.chance(GROUPS.get(key, 0.15))
 
     def fill(self, node, to, leave=()):
-        """What the table has of a mapping, but for some keys."""
+        """Draw all parameters of a mapping except some keys."""
         for key, child in node.items():
             plain = key.removesuffix("[]")
             if plain in leave or plain in to or not self.wants(plain, child):
@@ -324,7 +323,7 @@ class Maker:
     # ---- the slope ----
 
     def begin(self):
-        """x of the first vertex: mostly 0, or survey coordinates, or anything."""
+        """Draw x of the first vertex: usually 0, or survey coordinates, or anything."""
         if self.chance(0.75):
             return 0.0
         return self.rng.choice([480000.0, 512345.67, -1234.5, 1e-9, self.rng.uniform(-1e8, 1e8), -1e9])
@@ -366,7 +365,7 @@ class Maker:
         return self.fill(node, {}, leave)
 
     def materials(self, xs):
-        """Grounds from the first vertex to the last."""
+        """Draw grounds from the first vertex to the last."""
         p = self.table.tree["slope"]["materials[]"]["material"]
         inner = [x for x in xs[1:-1] if self.chance(0.4)]
         inner += [self.rng.uniform(xs[0], xs[-1]) for _ in range(self.rng.choice([0, 0, 1, 3]))]
@@ -380,7 +379,7 @@ class Maker:
         return rows
 
     def csv(self, xs, zs, layers):
-        """A table of the profile; with layers, after another line."""
+        """Return a table of the profile; with layers, after another line."""
         sign = self.rng.choice([",", ";", "\t"])
         head = self.rng.choice(["distance{}elevation", "Distance{}Elevation", "x{}z"]).format(sign)
         end = self.rng.choice(["\n", "\r\n"])
@@ -397,7 +396,7 @@ class Maker:
         zs = self.zs(xs)
         self.case.xs, self.case.zs = xs, zs
         slope = {}
-        if zs[-1] > zs[0]: # drawn upward: the scene's places are of the mirrored profile
+        if zs[-1] > zs[0]: # drawn upward: the scene's places refer to the mirrored profile
             slope["reversed"] = True
             self.case.used.add("slope.reversed")
             self.case.xs, self.case.zs = [xs[0] + xs[-1] - x for x in reversed(xs)], zs[::-1]
@@ -418,7 +417,7 @@ class Maker:
             slope["materials"] = self.materials(xs)
         else:
             slope["segments"] = [self.segment() for _ in range(1 if self.chance(0.4) else len(xs) - 1)]
-        each = len(slope.get("segments", [])) > 1  # has a ground of its own: its points are all kept
+        each = len(slope.get("segments", [])) > 1  # has its own ground: all its points are kept
         self.fill(self.table.tree["slope"], slope, ("segments", "materials", "reversed", "layer", *["tolerance_m"] * each))
         self.case.tolerance = slope.get("tolerance_m", 0 if "segments" in slope else TOLERANCE)
         if self.chance(0.1):
@@ -431,7 +430,7 @@ class Maker:
     # ---- release and controls ----
 
     def release(self):
-        """The release; where it may be at most is kept."""
+        """Draw the release; keeps its maximum place."""
         release = self.fill(self.table.tree["release"], {}, ("x_m",))
         xs, case = self.case.xs, self.case
         case.start = case.last_start = xs[0]
@@ -451,7 +450,7 @@ class Maker:
         return release
 
     def places(self):
-        """x of controls beyond the release, in any order."""
+        """Draw x of controls after the release, in any order."""
         lo, hi = math.nextafter(self.case.last_start, math.inf), self.case.xs[-1]
         count = self.rng.choice([1, 1, 1, 2, 3, 5]) if self.chance(0.98) else 40
         found = []
@@ -478,7 +477,7 @@ class Maker:
     # ---- the forest ----
 
     def stools(self, stand):
-        """Stools and the shoots on them: one for each at least, at most ten thousand."""
+        """Draw stools and their shoots: at least one each, at most ten thousand."""
         node = self.table.tree["forest[]"]["stand"]
         stools = stand["stools"] = self.fill(node["stools"], {})
         p = node["stools"]["per_ha"]
@@ -504,7 +503,7 @@ class Maker:
                 self.case.used.add("forest[].stand.shoots[].per_stool")
 
     def diameters(self, node, stems):
-        """Now and then a spread of diameters, seldom larger than they are; now and then in cm."""
+        """Sometimes draw a spread of diameters, rarely larger than they are; sometimes in cm."""
         if "dbh_sd_m" in node and "dbh_m" in stems and self.chance(0.3):
             self.value(node["dbh_sd_m"], stems)
             if self.chance(0.93):
@@ -524,7 +523,7 @@ class Maker:
             stand["trees"].append(stems)
 
     def stand(self):
-        """A whole stand."""
+        """Draw a whole stand."""
         node = self.table.tree["forest[]"]["stand"]
         stand = {}
         kind = self.rng.choice(["coppice", "coppice", "both", "both", "trees", "bare"])
@@ -533,7 +532,7 @@ class Maker:
         if kind in ("trees", "both"):
             self.trees(stand)
         self.fill(node, stand, ("base", "stools", "shoots", "trees", "uncertainty"))
-        for low in ("stumps", "logs"):  # all of it, or nothing
+        for low in ("stumps", "logs"):  # all, or nothing
             for key in node[low]:
                 if low in stand and key not in stand[low]:
                     self.value(node[low][key], stand[low])
@@ -551,7 +550,7 @@ class Maker:
         return stand
 
     def filed(self, stand):
-        """The stand as a scene writes it: itself, or a file's name, or a file and what differs."""
+        """Write the stand into the scene: itself, a file's name, or a file and its changes."""
         if not self.chance(0.2):
             return stand
         name = f"s{self.index}-stand{len(self.case.files)}.yaml"
@@ -561,14 +560,14 @@ class Maker:
             self.case.files[name] = {"ceduo": "stand/1", **stand}
             return name
         file = {key: value for key, value in stand.items() if key not in mine}
-        if isinstance(stand.get("stools"), dict) and "stools" in mine:  # a mapping is merged, a list replaced
+        if isinstance(stand.get("stools"), dict) and "stools" in mine:  # mappings are merged, lists replaced
             file["stools"] = {key: value for key, value in {"per_ha": 17, "spacing_m": 3}.items() if key in stand["stools"]}
         self.case.files[name] = {"ceduo": "stand/1", **file}
         self.case.used.add("forest[].stand.base")
         return {"base": name, **mine}
 
     def forest(self):
-        """Belts that rise and do not overlap."""
+        """Draw belts in order, without overlap."""
         xs, rng = self.case.xs, self.rng
         count = rng.choice([1, 1, 1, 2, 3])
         inner = [xs[0] + (xs[-1] - xs[0]) * rng.random() for _ in range(2 * count)]
@@ -607,7 +606,7 @@ class Maker:
             self.case.used.add("options[].name")
 
     def uncertainty(self):
-        """What is not known: it changes no figure of a run."""
+        """Draw uncertain inputs; they change no figure of a run."""
         rows = {"lo": {"path": "simulation.gravity_m_s2", "lo": 9.7, "hi": self.rng.uniform(9.8, 10)},
                 "mean": {"path": "release.height_m", "mean": 10, "sd": self.rng.uniform(0.1, 3)},
                 "one_of": {"path": "simulation.law", "one_of": ["lumped", "crsp"]}}
@@ -618,7 +617,7 @@ class Maker:
         return [rows[key] for key in keys]
 
     def blocks(self):
-        """What comes down: by a power law, or in classes that do not overlap."""
+        """Draw block frequencies: by a power law, or in classes that do not overlap."""
         lo = self.rng.uniform(0.01, 0.5)
         hi = lo * self.rng.uniform(1.5, 20)
         self.case.used |= {f"blocks[].{key}" for key in ("per_year", "volume_m3", "exponent")}
@@ -648,7 +647,7 @@ class Maker:
             scene["uncertainty"] = self.uncertainty()
         if self.chance(0.1):
             scene["blocks"] = self.blocks()
-            for control in scene.get("controls", []):  # it is refused without blocks
+            for control in scene.get("controls", []):  # invalid without blocks
                 if self.chance(0.5):
                     self.value(tree["controls[]"]["accepted_return_y"], control)
         if self.chance(0.1):
@@ -663,17 +662,17 @@ class Maker:
         return case
 
     def orders(self):
-        """How the scene is run beside the plain way."""
+        """Draw additional ways to run the scene."""
         case, rng = self.case, self.rng
-        case.plot = rng.random() if self.chance(0.3) else None  # as a share of the kinds there are
+        case.plot = rng.random() if self.chance(0.3) else None  # as a share of the existing kinds
         case.size = rng.choice([None, None, "40x12", "120x40", "20x6", "200x60"])
         case.charset = rng.choice([None, "braille", "block", "ascii"])
         case.years = rng.choice(["0:3", "0:30:10", "5:5", "0:500:250", "100:102", "7:8"]) if self.chance(0.25) else None
 
-    # ---- scenes that must be refused ----
+    # ---- invalid scenes ----
 
     def spoil(self):
-        """One thing is made wrong."""
+        """Make one thing invalid."""
         ways = [*[self.spoil_range] * 6, self.spoil_word, self.spoil_key, self.spoil_group,
                 self.spoil_control, self.spoil_belts, self.spoil_stools, self.spoil_vertices, self.spoil_type]
         self.rng.shuffle(ways)
@@ -779,7 +778,7 @@ def flow(value):
 
 
 def lines_of(value, indent):
-    """A mapping in block style; what is small in flow style."""
+    """Write a mapping in block style; small values in flow style."""
     for key, item in value.items():
         if isinstance(item, dict) and len(flow(item)) > 90:
             yield f"{indent}{key}:"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the tests of --batch know of a run: the shape of its JSON, the cells of its CSV, scenes to run."""
+"""Helpers for runs of --batch: the shape of JSON, the cells of CSV, scenes."""
 import csv
 import io
 import math
@@ -54,7 +54,7 @@ SUMMARY = {"length_m": NUMBER, "longest_gap_m": NUMBER, "adc_m": MAYBE, "contact
            "passes_threshold": FLAG}
 YIELD = {**{k: NUMBER for k in ("cut_m3_ha_per_year", "standing_m3_ha_mean", "died_m3_ha_per_year")},
          "cuts": [{k: NUMBER for k in ("year", "from_m", "to_m", "stems_per_ha", "volume_m3_ha")}]}  # null without growth
-# Of the share by which options are judged; null if all years are alike, or by the index.
+# The share by which options are judged; null if all years are equal, or by the index.
 WINDOW = {"from": COUNT, "to": COUNT, "mean": NUMBER, "mean_lo": NUMBER, "mean_hi": NUMBER, "worst": NUMBER, "worst_year": COUNT,
           "failing_years": MAYBE}
 STOPS = {"p50": NUMBER, "p95": NUMBER, "max": NUMBER}
@@ -85,7 +85,7 @@ KINDS = {NUMBER: is_number, MAYBE: lambda v: v is None or is_number(v),
 
 
 def expect_shape(value, shape, path="$"):
-    """Exactly the keys and types of a shape."""
+    """Expect exactly the keys and types of a shape."""
     if isinstance(shape, str):
         expect(KINDS[shape](value), f"{path}: {value!r} is no {shape}")
     elif isinstance(shape, list):
@@ -104,7 +104,7 @@ def expect_shape(value, shape, path="$"):
 
 
 def by_index(shape):
-    """The shape of a run with contact_model index: nothing is known of the wood."""
+    """Return the shape of a run with contact_model index: nothing is known with forest."""
     if shape is WOODED or shape is OTHER or shape is WINDOW:
         return NULL
     if isinstance(shape, list):
@@ -119,17 +119,17 @@ MODELS = ("index", "stems")
 
 
 def through(model):
-    """Options of the command line for a contact model."""
+    """Return command-line options for a contact model."""
     return ("-s", f"{MODEL}={model}")
 
 
 def warned(run):
-    """The warnings of a run, but for that of rocks that stems stop just below the release."""
+    """Return the warnings of a run, except about rocks that stems stop just below the release."""
     return [w for w in run["warnings"] if "of the release, before they have any speed" not in w]
 
 
 def expect_run(run, model="stems"):
-    """The shape of a run, and what goes with it whatever the scene."""
+    """Expect the shape of a run, and rules that hold for any scene."""
     expect_shape(run, INDEX_RESULT if model == "index" else RESULT)
     for option in run["options"]:
         ends = option["ends"]
@@ -146,7 +146,7 @@ def expect_run(run, model="stems"):
 
 
 def expect_window(option):
-    """The years by which an option is judged; without them the answer is that of today."""
+    """Expect the years by which an option is judged; without them today's answer holds."""
     window = option["window"]
     if window is None:
         for verdict in (c["verdict"] for c in option["controls"]):
@@ -161,23 +161,23 @@ def energy_light(control):
     wooded = control["wooded"]
     if wooded is None or control["accepted_kJ"] is None:
         return "unknown"
-    hazard = wooded["hazard"]  # with blocks a number of years between two such rocks is accepted
+    hazard = wooded["hazard"]  # with blocks the limit is a number of years between two such rocks
     limit = 1 / hazard["accepted_return_y"] / hazard["per_year"] if hazard else 0.05
     return "pass" if wooded["exceed_probability"] <= limit else "fail"
 
 
 def flown(control):
-    """What is compared: through the wood, or by the index without it."""
+    """Return the compared run: with forest, or without it by the index."""
     return control["wooded"] or control["bare"]
 
 
 def no_difference(name, mean=0):
-    """Between the same flights it is exactly 0; None: it is not known."""
+    """Between equal runs the difference is exactly 0; None: unknown."""
     return {"mean": mean, "se": mean, **({"below": None} if "below" in SHAPE_OF_DIFFERENCE[name] else {})}
 
 
 def expect_differences(run):
-    """Option less baseline, one for each other option and control, in order."""
+    """Expect option minus baseline, for each other option and control, in order."""
     baseline = run["options"][0]
     wanted = [(option, control, first) for option in run["options"][1:]
               for control, first in zip(option["controls"], baseline["controls"])]
@@ -220,7 +220,7 @@ HAZARD_CELLS = (["per_year", "effective_rocks"] +
 
 
 def flat(prefix, shape):
-    """Names of the cells of an object."""
+    """Return the names of the cells of an object."""
     names = []
     for key, inner in shape.items():
         if key == "hazard":
@@ -256,7 +256,7 @@ def look_up(mapping, name):
 
 
 def is_formula(text):
-    """Whether a spreadsheet would compute it."""
+    """True if a spreadsheet would evaluate it."""
     try:
         float(text)
         return text.startswith("+")
@@ -276,7 +276,7 @@ def expect_cell(cell, value, name):
 
 
 def expect_rows(rows, runs, inner):
-    """CSV rows hold what the JSON of the same runs holds. inner: 'controls' or 'stands'."""
+    """Expect CSV rows to equal the JSON of the same runs. inner: 'controls' or 'stands'."""
     wanted = [(run, option, item) for run in runs for option in run["options"] for item in option[inner]]
     expect_equal(len(rows), len(wanted), "rows")
     for row, (run, option, item) in zip(rows, wanted):
@@ -306,13 +306,13 @@ THICK = {"name": "thick", "species": "ostrya-carpinifolia",
 
 
 def treated(**stands):
-    """A scene with one option for each stand, of the same name; None is no forest."""
+    """Return a scene with one option per stand, with its name; None is no forest."""
     return wooded_scene(forest=None, options=[
         {"name": name.replace("_", " "), "forest": [{"from_m": 0, "to_m": 105, "stand": st}] if st else []}
         for name, st in stands.items()])
 
 
-# Nothing takes energy from these rocks: each makes as many contacts as are allowed. By the law crsp Rn falls with the speed: they rest.
+# These rocks lose no energy and make the maximum number of contacts. Under crsp Rn falls with the speed: they stop.
 ENDLESS = scene(title="endless", release={"x_m": 5, "height_m": 3},
                 slope={"vertices_m": [[0, 0], [100, 0]], "segments": [{"rn": 1, "rt": 1, "roughness_rad": 0, "friction": 0}]},
                 controls=[{"x_m": 30, "accepted_kJ": 1}], simulation={"rocks": 200, "law": "lumped"})

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The law arm in scenes: what is assumed with it, what is in doubt, and the shipped scene."""
+"""The law arm in scenes: its assumptions, its uncertain inputs, and the shipped scene."""
 import csv
 
 from harness import DONE, ROOT, Folder, ceduo, expect, expect_equal, run_all, scene
@@ -10,7 +10,7 @@ PROFILE = [[0, 60], [60, 8], [200, 0]]
 
 
 def assumed(slope, law):
-    """What the result says is assumed of the slope"""
+    """Return the assumptions about the slope in the result"""
     with Folder() as f:
         path = f.write("s.yaml", scene(slope={"vertices_m": PROFILE, **slope}, simulation={"law": law}))
         r = ceduo("-b", "--details", "-s", "uncertainty=none", "-n", 20, path)
@@ -19,13 +19,13 @@ def assumed(slope, law):
 
 
 def test_mu_is_said_to_be_assumed():
-    """With arm, where nobody gave it; with the other laws it has no part"""
+    """With arm mu is assumed unless given; the other laws do not use it"""
     materials = {"materials": [{"from_m": 0, "to_m": 200, "material": "talus"}]}
     for slope in ({"segments": [GROUND]}, materials):
         expect(assumed(slope, "arm") > 0, slope)
         expect_equal(assumed(slope, "lumped"), 0)
     expect_equal(assumed({"segments": [{**GROUND, "mu": 0.6}]}, "arm"), 0)
-    with Folder() as f:  # a profile without a word on its ground: talus
+    with Folder() as f:  # a profile without a ground: talus
         f.write("p.csv", "distance,elevation\n0,60\n60,8\n200,0\n")
         path = f.write("s.yaml", scene(slope={"csv": "p.csv"}, simulation={"law": "arm"}))
         expect("friction mu 0.6 where a rock strikes" in ceduo("-b", "--details", "-s", "uncertainty=none", "-n", 20, path).out)
@@ -41,25 +41,25 @@ def inputs(law):
 
 
 def test_uncertainty_is_of_what_the_law_knows():
-    """mu with arm, Rt with the others"""
+    """mu is uncertain with arm, Rt with the other laws"""
     mu, rt = "slope.materials[talus].mu", "slope.materials[talus].rt"
     expect(mu in inputs("arm") and rt not in inputs("arm"))
     expect(rt in inputs("lumped") and mu not in inputs("lumped"))
 
 
 def test_shapes():
-    """A plate goes less far than a rock of equal axes; the law lumped does not tell them apart"""
+    """A plate goes less far than a rock of equal axes; under lumped both are equal"""
     def stops(law, axes):
         with Folder() as f:
             path = f.write("s.yaml", scene(rock={"shape": "ellipsoid", "axes_m": axes}, controls=[{"x_m": 60}], forest=None,
                                            slope={"vertices_m": PROFILE, "segments": [GROUND]}, simulation={"law": law}))
             return find(ceduo("-b", "-f", "json", "-n", 2000, path).json()[0], "stop_x_m")["p50"]
-    expect_equal(stops("lumped", [0.5, 0.5, 0.5]), stops("lumped", [0.75, 0.5, 0.25]))  # the same mean to its last bit
+    expect_equal(stops("lumped", [0.5, 0.5, 0.5]), stops("lumped", [0.75, 0.5, 0.25]))  # the same mean to the last bit
     expect(stops("arm", [0.4, 0.4, 0.4]) > stops("arm", [0.6, 0.4, 0.2]) + 1)
 
 
 def find(what, key):
-    """The first value of a key, anywhere in it"""
+    """Return the first value of a key, at any depth"""
     if isinstance(what, dict):
         if key in what:
             return what[key]
@@ -72,7 +72,7 @@ def find(what, key):
 
 
 def test_tschamut():
-    """Eighty stops, with their source and licence beside them"""
+    """Eighty stops, with their source and licence"""
     beside = ROOT / "profiles" / "observed"
     with open(beside / "tschamut-2014.csv", encoding="utf-8") as f:
         rows = list(csv.DictReader(f))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pages of several options: the table side by side, and which of them is called the best."""
+"""Pages of several options: the comparison, and the best option."""
 import math
 import re
 import sys
@@ -13,8 +13,8 @@ from runs import FOUR, THICK, THIN, through, treated
 
 
 def leader(shares, to_first):
-    """The option with the smallest share. Each other one is worse by three errors, of which those of the differences to the first
-    are known."""
+    """Return the option with the smallest share, if each other one is worse by three errors; the errors of differences to the
+    first are known."""
     zero = {"mean": 0, "se": 0}
     best = min(shares, key=shares.get)
     mean, se = (to_first.get(best, zero)[key] for key in ("mean", "se"))
@@ -25,7 +25,7 @@ def leader(shares, to_first):
 
 
 def test_table_options():
-    """Table of the four systems: each option, then side by side with the differences, what does not separate them said"""
+    """The table of the four systems: each option, then the comparison with differences, and options that are not separated"""
     text, run = good(*WHOLE, "-n", 500, FOUR).out, result(FOUR, "-n", 500)
     names = [o["name"] for o in run["options"]]
     expect_order(text, *[re.escape(n) for n in names], "(?i)side by side")
@@ -69,7 +69,7 @@ def test_table_options():
 
 
 def test_table_options_index():
-    """Table of the four systems by the index: what does not separate them said, no winner named"""
+    """The table of the four systems by the index: options that are not separated, no winner"""
     text = good(*WHOLE, "-n", 500, *through("index"), FOUR).out
     names = [o["name"] for o in result(FOUR, "-n", 1)["options"]]
     expect_order(text, *[re.escape(n) for n in names], "(?i)side by side")
@@ -91,7 +91,7 @@ def best_sentence(folder, scene_mapping, *arguments):
 
 
 def test_table_best():
-    """Table: which option lets the fewest through, only where that is clear; without an accepted energy nothing of danger"""
+    """The table names the option with fewest arrivals only if it is clear; without an accepted energy there is no danger"""
     with Folder() as f:
         for order in ({"many_thin": THIN, "few_thick": THICK}, {"few_thick": THICK, "many_thin": THIN}):
             words = best_sentence(f, treated(**order))
@@ -101,7 +101,7 @@ def test_table_best():
         options = [{"name": name, "forest": [{"from_m": 10, "to_m": 95, "stand": st}]} for name, st in (("cut", "simple-coppice"), ("grows", "ads-1"))]
         words = best_sentence(f, wooded_scene(forest=None, options=options), "-n", 50)
         expect(re.search(r"option mean rotation worst .* cut \d+±\d+ \d+±\d+ ", words), words)
-        words = best_sentence(f, treated(none=None, many_thin=THIN))  # which hardly take anything
+        words = best_sentence(f, treated(none=None, many_thin=THIN))  # these take hardly any energy
         expect_in("Today no option is clearly better than the others.", words)
         expect_in("'none' does not change: no stem stands in it.", words)
         words = best_sentence(f, treated(many_thin=THIN, few_thick=THICK), *through("index"))
@@ -126,7 +126,7 @@ def test_table_best():
 
 
 def test_table_of_none():
-    """Table: of no rock among n with too much energy, and of no difference between such, Wilson's interval bounds it: never 0"""
+    """With no rock among n above the energy, or no difference, Wilson's interval gives the bound: never 0"""
     with Folder() as f:
         path = f.write("s.yaml", {**treated(few_thick=THICK, none=None), "controls": [{"x_m": 110, "accepted_kJ": 1e6}]})
         rows = side_by_side(good(*WHOLE, "-n", 200, path).out, ["few thick", "none"])[1]
@@ -136,14 +136,14 @@ def test_table_of_none():
 
 
 def test_table_best_same():
-    """Table: of options that are the same none is called the best"""
+    """Among equal options none is the best"""
     with Folder() as f:
         words = best_sentence(f, treated(one=THICK, other=THICK))
         expect(re.search(r"Today all options are equal: \d+ of 1000\.", words), words)
 
 
 def test_table_four_best():
-    """Table: four options that are equal and better than a fifth are all named, with commas and one 'and'"""
+    """Four equal options that are better than a fifth are all named, with commas and one 'and'"""
     with Folder() as f:
         path = f.write("s.yaml", wooded_scene(forest=None, options=[{"name": "none"}, *({"name": n, "forest": [belt(10, 95)]} for n in "abcd")]))
         words = " ".join(good(*WHOLE, path).out.split())

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--calibrate: what is fitted, what is said of it, and what is refused. Stops come from ceduo itself at known values."""
+"""--calibrate: fitted values, sentences about the fit, and errors. Stops come from ceduo itself at known values."""
 import os
 import re
 import signal
@@ -11,11 +11,11 @@ from harness import (CEDUO, DONE, INPUT, OUTPUT, ROOT, SLOWER, USAGE, Folder, ce
                      expect_near, good, processor_seconds, run_all, scene, stand)
 
 GROUND = {"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25, "friction": 0.5}
-# stops of 30 rocks on that ground, of seed 777, by the published law lumped: the same law, so that the fit must be able to give them
+# stops of 30 rocks on that ground, seed 777, under the published law lumped: the fit uses the same law and can reproduce them
 STOPS = [113.5, 114.6, 115.0, 116.7, 116.7, 118.0, 118.3, 119.3, 119.8, 120.3, 120.4, 120.5, 121.9, 122.8,
          124.0, 124.8, 125.0, 125.4, 125.6, 125.9, 126.5, 126.9, 127.8, 127.9, 128.2, 129.1, 129.5, 130.8, 131.0,
          132.6]
-# 50 stops in another quarry, by the same law: Rn .36, Rt .87, roughness .24 rad, friction .55
+# 50 stops in another quarry, under the same law: Rn .36, Rt .87, roughness .24 rad, friction .55
 FIFTY = [120.3, 120.1, 125.1, 120.2, 125.0, 127.0, 125.2, 116.0, 123.2, 127.5, 110.4, 124.0, 122.3, 121.8, 128.0, 128.1, 113.6,
          124.3, 125.5, 129.9, 123.4, 129.6, 123.9, 130.1, 118.7, 126.2, 124.2, 119.8, 124.1, 118.8, 123.7, 117.2, 105.1, 122.5,
          112.0, 113.3, 108.8, 123.0, 127.7, 127.0, 123.8, 124.3, 128.1, 124.8, 119.3, 113.1, 116.2, 120.5, 113.4, 112.2]
@@ -39,7 +39,7 @@ def fit(what, *arguments, rocks=300):
 
 
 def test_json():
-    """The values, what is not refuted, and what the fit says of all that was seen"""
+    """JSON has the values, the ranges, and the comparison of the fit with all observations"""
     result = fit(quarry({"stops": {"x_m": STOPS, "of": 30}, "passed": {"x_m": 60, "count": 30, "of": 30, "use": "check"}}))
     expect_equal(result["format"], "ceduo-calibration-1")
     value = result["parameters"][0]
@@ -71,7 +71,7 @@ def test_threads():
 
 
 def test_not_determined():
-    """What the stops do not determine is said to be so"""
+    """Values that the stops do not determine are reported"""
     result = fit(quarry({"passed": {"x_m": 60, "count": 4, "of": 4}}), rocks=100)
     expect_equal(result["parameters"][0]["determined"], False)
     with Folder() as f:
@@ -80,8 +80,7 @@ def test_not_determined():
 
 
 def test_not_told_apart():
-    """Chains that would not have enough draws at their end are ended early; which values are not told apart is said, and which to
-    leave. Where 50 stops tell four values, they are fitted."""
+    """Chains without enough draws at their end stop early; correlated values are named, and which to fix. 50 stops fit four"""
     values = (f"{RN}=0.2:0.6", "slope.segments[*].roughness_rad=0.05:0.6", "slope.segments[*].friction=0.3:0.9")
     four = [word for value in (f"{RT}=0.7:0.98", *values) for word in ("--calibrate", value)]
     few = ("-n", 20, "-j", 2, "-s", "simulation.seed=2")
@@ -103,7 +102,7 @@ def test_not_told_apart():
 
 
 def test_at_bound():
-    """What fits best at the end of its range is named"""
+    """A best value at the end of its range is reported"""
     with Folder() as f:
         path = f.write("s.yaml", quarry())
         page = ceduo("-n", 300, "--calibrate", f"{RT}=0.9:0.98", path).out
@@ -111,7 +110,7 @@ def test_at_bound():
 
 
 def test_misfit():
-    """What the model cannot give is said, of what is fitted and of what is to check the fit"""
+    """Observations that the model cannot reproduce are reported, fitted or held back"""
     far = {"stops": {"x_m": [5 * x for x in range(1, 31)], "of": 30}}
     result = fit(quarry(far))
     expect_equal(result["misfit"], True)
@@ -128,7 +127,7 @@ def test_misfit():
 
 
 def test_names():
-    """What was seen in two scenes under one name is told apart"""
+    """Observations of two scenes with one name are distinguished"""
     with Folder() as f:
         paths = [f.write(name, quarry()) for name in ("s.yaml", "t.yaml")]
         page = ceduo("-n", 100, "--calibrate", f"{RT}=0.7:0.98", *paths).out
@@ -137,7 +136,7 @@ def test_names():
 
 
 def test_held_back():
-    """Of what was kept back to check the fit the page says how many values lie where single rocks are predicted"""
+    """For observations held back the page reports how many values lie in the range of single rocks"""
     both = {"stops": [{"x_m": STOPS[::2], "of": 15}, {"x_m": STOPS[1::2], "of": 15, "use": "check", "name": "other half"}],
             "speed": {"x_m": 199, "values": [5, 6, 7], "use": "check"}}
     with Folder() as f:
@@ -155,7 +154,7 @@ FLIGHT = {"title": "flight", "rock": {"shape": "sphere", "diameter_m": 0.5}, "re
 
 
 def test_page_of_a_flight():
-    """Speeds along and upward do the same to the speed that was seen; diameters stand in cm; a p of some per cent has three digits"""
+    """Horizontal and upward speed change the observed speed equally; diameters are in cm; a p of some per cent has three digits"""
     seen = [{"name": "first day", "speed": {"x_m": 20, "n": 5, "mean": 22, "sd": 0.5}},
             {"name": "other day", "speed": {"x_m": 20, "n": 5, "mean": 21.3, "sd": 0.5}, "use": "check"}]
     fits = [f"--calibrate={row}" for row in ("release.vx_m_s=8:12", "release.vz_m_s=-2:2", "forest[0].stand.trees[0].dbh_m=0.1:0.3")]
@@ -189,7 +188,7 @@ def test_several():
 
 
 def test_csv():
-    """A row for each value"""
+    """CSV has a row per value"""
     with Folder() as f:
         out = ceduo("-f", "csv", "-n", 100, "--calibrate", f"{RT}=0.7:0.98", f.write("s.yaml", quarry())).out.splitlines()
         expect_equal(out[0].split(",")[1:4], ["path", "lo", "hi"])
@@ -198,7 +197,7 @@ def test_csv():
 
 
 def test_scars():
-    """A fit to the number of scars says where nobody knows which share was found"""
+    """A fit to the number of scars says so if the observed share is unknown"""
     stems = {"name": "w", "trees": [{"per_ha": 600, "dbh_m": 0.2, "height_m": 14, "volume_m3": 0.2}]}
     what = quarry({"scars": {"from_m": 60, "to_m": 90, "height_m": [0.4, 0.5, 0.9], "of": 5}},
                   forest=[{"from_m": 60, "to_m": 90, "stand": stems}])
@@ -208,7 +207,7 @@ def test_scars():
 
 
 def test_written():
-    """-o writes the scene with the best value and the draws beside it, which uncertainty reads back"""
+    """-o writes the scene with the best value, and the draws next to it; uncertainty reads them"""
     materials = {"vertices_m": [[0, 60], [40, 20], [60, 8], [200, 0]],
                  "materials": [{"from_m": 0, "to_m": 50, "material": "talus"}, {"from_m": 50, "to_m": 200, "material": "colluvium"}]}
     with Folder() as f:
@@ -232,7 +231,7 @@ def test_written():
 
 
 def test_written_where_it_lies():
-    """A profile that begins at 100 m is written there: the points are those of the scene, and its controls stay on them"""
+    """A profile that begins at 100 m is written in its coordinates, and its controls keep their places"""
     points = [[100, 60], [140, 20], [160, 8], [300, 0]]
     slope = {"vertices_m": points, "materials": [{"from_m": 100, "to_m": 150, "material": "talus"},
                                                  {"from_m": 150, "to_m": 300, "material": "colluvium"}]}
@@ -259,7 +258,7 @@ def test_written_as_yml():
 
 
 def test_not_written():
-    """Where the draws cannot lie beside the scene neither is written: a device of their name, a name too long for one of its own"""
+    """If the draws cannot be written next to the scene, neither is: their name is a device, or too long"""
     with Folder() as f:
         path = f.write("s.yaml", quarry())
         (f.path / "fitted.draws.csv").symlink_to("/dev/null")
@@ -271,7 +270,7 @@ def test_not_written():
 
 
 def test_uncertainty_written():
-    """Of the rows of uncertainty that there are those of fitted values go, and the others stay, also beside draws of an earlier fit"""
+    """-o replaces uncertainty rows of fitted values and keeps the others, also with draws of an earlier fit"""
     density = {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}
     uncertainty = [{"path": "slope.segments[0].rt", "lo": 0.6, "hi": 0.99}, density]
     with Folder() as f:
@@ -285,7 +284,7 @@ def test_uncertainty_written():
 
 
 def test_table_from_elsewhere():
-    """Tables of what was seen are found from a scene written in another folder, however they are named"""
+    """Tables of observations are found from a scene written in another folder, for all forms of their name"""
     for seen in ({"x_m": "stops.csv", "of": 30}, {"csv": "stops.csv", "of": 30}):
         with Folder() as f:
             f.write("stops.csv", "x_m\n" + "\n".join(str(x) for x in STOPS) + "\n")
@@ -317,7 +316,7 @@ def test_draws():
 
 
 def test_draws_that_fit_nothing():
-    """Draws beyond the range of a value, fields without a head and values that are set twice are refused with their line"""
+    """Draws out of range, fields without a head and values set twice are refused with their line"""
     rt, rn, friction = (f"slope.segments[0].{key}" for key in ("rt", "rn", "friction"))
     row = {"path": rt, "lo": 0.7, "hi": 0.9}
     tables = (
@@ -350,7 +349,7 @@ def test_draws_that_fit_nothing():
 
 
 def test_draws_of_many_places():
-    """A head of tens of thousands of values takes no time"""
+    """A head with tens of thousands of values is fast"""
     n = 20000
     slope = {"vertices_m": [[i, n - i] for i in range(n + 1)], "segments": [GROUND] * n}
     head = " ".join(f"slope.segments[{i}].rt" for i in range(n))
@@ -361,7 +360,7 @@ def test_draws_of_many_places():
 
 
 def test_refused():
-    """What cannot be fitted"""
+    """Values that cannot be fitted"""
     with Folder() as f:
         path = f.write("s.yaml", quarry())
         nothing = f.write("n.yaml", quarry([]))
@@ -387,8 +386,8 @@ def test_refused():
 
 
 def interrupted(word, *arguments):
-    """Interrupts a calibration once it shows a word; what it printed, its status, and the seconds of processor it still took."""
-    reads, writes = os.openpty()  # a terminal is told how far it is
+    """Interrupt a calibration after a word; return its output, its status, and the processor seconds it needed."""
+    reads, writes = os.openpty()  # a terminal shows progress
     child = subprocess.Popen([CEDUO, "-j", "1", "-f", "json", *map(str, arguments)], stdout=subprocess.PIPE, stderr=writes,
                              env=environment(), cwd=ROOT)
     os.close(writes)
@@ -403,14 +402,14 @@ def interrupted(word, *arguments):
 
 
 def test_interrupted():
-    """Ctrl-C ends a calibration at once by its signal: it prints nothing, and an earlier fit and its draws stay as they were"""
+    """Ctrl-C ends a calibration by its signal: nothing is printed, and an earlier fit and its draws stay"""
     with Folder() as f:
         path = f.write("s.yaml", quarry())
         out, draws = f.path / "fitted.yaml", f.path / "fitted.draws.csv"
         good = ceduo("-n", 50, "--calibrate", f"{RT}=0.7:0.98", "-o", out, path)
         expect_equal(good.status, DONE, good)
         before = [p.read_bytes() for p in (out, draws)]
-        for word in (rb"log-likelihood -?\d", rb"R-hat \d"):  # while it searches, and with draws
+        for word in (rb"log-likelihood -?\d", rb"R-hat \d"):  # during the search, and with draws
             printed, status, seconds = interrupted(word, "-n", 5000, "--calibrate", f"{RT}=0.7:0.98", "-o", out, path)
             expect_equal((printed, status), (b"", -signal.SIGINT), str(word))
             expect_equal([p.read_bytes() for p in (out, draws)], before, str(word))

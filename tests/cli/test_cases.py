@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes and commands, and what is told of them: the cases are in cases/*.txt, whose head says how one is written."""
+"""Scenes and commands with their messages: the cases are in cases/*.txt, and their heads explain the format."""
 import re
 import shlex
 import sys
@@ -11,7 +11,7 @@ from harness import DONE, INPUT, USAGE, Folder, ceduo, expect, run_all  # noqa: 
 
 CASES = Path(__file__).resolve().parent / "cases"
 
-# What a case does not say of a scene that is good.
+# Completes a case to a valid scene.
 PLAIN = ("ceduo: scene/1", "rock: {diameter_m: 0.5, density_kg_m3: 2600}",
          "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], segments: [{rn: 0.3, rt: 0.8}, {rn: 0.3, rt: 0.8}]}",
          "controls: [{x_m: 20}]", "simulation: {rocks: 10}")
@@ -23,7 +23,7 @@ def unescaped(line):
 
 
 def check(folder, case):
-    """Why a case does not hold; None: it does."""
+    """Return why a case fails; None: it passes."""
     sets, said, shown, lines, files, command, status = [], [], [], [], {}, "--check @", None
     for line in case:
         word, _, rest = line.partition(": ")
@@ -50,7 +50,7 @@ def check(folder, case):
 
 
 def groups():
-    """(title, cases) of all files."""
+    """Return (title, cases) of all files."""
     for path in sorted(CASES.glob("*.txt")):
         title, cases = "", []
         for line in path.read_text(encoding="utf-8").splitlines():

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: brief
-"""CSV holds what the JSON of the same runs holds."""
+"""CSV equals the JSON of the same runs."""
 import csv
 import io
 import re
@@ -15,7 +15,7 @@ from runs import CONTROL_CELLS, FOUR, PAPER, STAND_CELLS, expect_rows, expect_ru
 
 
 def test_csv_controls():
-    """CSV: one header, a row each scene, option and control, values equal to JSON's"""
+    """CSV has one header, a row per scene, option and control, and the values of JSON"""
     more = ["-s", "controls=[{x_m: 40, name: 'a \"b\", c'}, {x_m: 152, accepted_kJ: 50}]", "-n", "300"]
     for model in ("index", "stems"):
         header, rows = read_csv(good("--batch", "-f", "csv", PAPER, FOUR, *more, *through(model)).out)
@@ -33,7 +33,7 @@ def test_csv_controls():
 
 
 def test_csv_null():
-    """CSV: what does not exist is empty, as it is null in JSON: no accepted energy, nobody reaches, one rock"""
+    """CSV is empty where JSON has null: no accepted energy, no arrival, one rock"""
     with Folder() as f:
         path = f.write("s.yaml", wooded_scene(forest=None, options=[
             {"name": "thick", "forest": [belt(10, 95, shoots=[{"per_ha": 5000, "dbh_m": 0.3, "height_m": 20, "volume_m3": 9}])]},
@@ -52,7 +52,7 @@ def test_csv_null():
 
 
 def test_csv_formulas():
-    """CSV: names that a spreadsheet would compute stand behind an apostrophe, others and all numbers as they are"""
+    """CSV puts an apostrophe before names that a spreadsheet would evaluate; other names and all numbers stay"""
     names = {"=1+1": "'=1+1", "+1": "'+1", "@sum": "'@sum", "-1+cmd": "'-1+cmd", "-\u00e8": "'-\u00e8", "=a,\"b\"": "'=a,\"b\"",
              "a=b": "a=b", "'=c": "'=c", "-": "-", "-5": "-5", "1": "1"}
     with Folder() as f:
@@ -69,7 +69,7 @@ def test_csv_formulas():
 
 
 def test_csv_stands():
-    """CSV --rows stands: a row a stand, values equal to JSON's"""
+    """CSV --rows stands has a row per stand, and the values of JSON"""
     header, rows = read_csv(good("--batch", "-f", "csv", "--rows", "stands", PAPER, FOUR, "-n", "10").out)
     expect_equal(sorted(header), sorted(STAND_CELLS))
     expect_equal(len(rows), 2 + 8)
@@ -79,7 +79,7 @@ def test_csv_stands():
 
 
 def test_accepted_as_given():
-    """What a place withstands comes back in JSON, CSV and on the page as its file says it"""
+    """The accepted energy appears in JSON, CSV and on the page as in the file"""
     given = [3.3, 2.3, 4.35, 0.007, 1.001, 8.2, 1e-3, 999.999, 123456.789]
     with Folder() as f:
         path = f.write("s.yaml", scene(controls=[{"x_m": 10 + i, "accepted_kJ": kJ} for i, kJ in enumerate(given)]))
@@ -92,7 +92,7 @@ def test_accepted_as_given():
 
 
 def test_no_stands_csv():
-    """No forest: --rows stands is a header without rows, on standard output and in a file"""
+    """Without forest --rows stands is a header without rows, on standard output and in a file"""
     with Folder() as f:
         path, target = f.write("s.yaml", scene()), f.path / "out.csv"
         text = good("--batch", "-f", "csv", "--rows", "stands", path).out

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shipped stands lie on their own curves: a grown stand is a stand just cut, some years later, by the closed forms and by the program."""
+"""Shipped stands lie on their own curves: a grown stand is a freshly cut stand some years later, in closed form and by the
+program."""
 import math
 import re
 import sys
@@ -14,7 +15,7 @@ from test_yield import density_index, size  # noqa: E402
 
 STANDS = PROFILES / "stands"
 SPECIES = ("beech", "chestnut", "manna-ash", "oak-downy", "oak-turkey")
-# a grown stand, the stand just cut, and the years between them
+# a grown stand, the freshly cut stand, and the years between them
 PAIRS = {"simple-coppice": ("simple-coppice-cut", 25), "simple-coppice-5y": ("simple-coppice-cut", 5),
          "coppice-with-standards": ("coppice-with-standards-cut", 25),
          "coppice-with-standards-in-groups": ("coppice-with-standards-in-groups-cut", 25),
@@ -25,7 +26,7 @@ PAIRS = {"simple-coppice": ("simple-coppice-cut", 25), "simple-coppice-5y": ("si
 
 
 def blocks_of(name):
-    """The blocks of a stand's file, those of its base first."""
+    """Return the blocks of a stand's file, its base's first."""
     text = (STANDS / f"{name}.yaml").read_text(encoding="utf-8")
     base = re.search(r"^base: (\S+)\.yaml$", text, re.M)
     blocks = blocks_of(base[1]) if base else {}
@@ -35,13 +36,13 @@ def blocks_of(name):
 
 
 def number(block, key, default=None):
-    """The last of a key's numbers, as a file goes before its base."""
+    """Return the last of a key's numbers, because a file overrides its base."""
     found = re.findall(rf"\b{key}: ([0-9.]+)", block)
     return float(found[-1]) if found else default
 
 
 def stems_of(blocks, key):
-    """Each kind of stems: how many per stool or hectare, dbh, height, age."""
+    """Return each kind of stems: number per stool or hectare, dbh, height, age."""
     items = re.split(r"(?m)^  - ", blocks.get(key, ""))[1:]
     return [[number(i, "per_stool" if key == "shoots" else "per_ha"), number(i, "dbh_m"), number(i, "height_m"), number(i, "age_y")]
             for i in items]
@@ -52,11 +53,11 @@ def curve_of(blocks, kind):
     return [number(curve, key) for key in ("dbh_most_m", "dbh_rate_1_y", "height_most_m", "height_rate_1_y")]
 
 
-# ---- the closed forms ----
+# ---- closed forms ----
 
 
 def grown(stem, curve, years, age=None):
-    """Dbh and height some years later, in proportion to the curve, from the age at which it has the dbh if none is known."""
+    """Return dbh and height some years later, proportional to the curve, from the age of the dbh if none is given."""
     _, dbh, height, _ = stem
     age = age or -math.log(1 - dbh / curve[0]) / curve[1]
     (d0, h0), (d1, h1) = size(curve, age), size(curve, age + years)
@@ -64,7 +65,7 @@ def grown(stem, curve, years, age=None):
 
 
 def year_of(blocks, years, trees):
-    """Stools, shoots per stool with dbh and height, and trees, so many years after the cut that left these trees and cohorts."""
+    """Return stools, shoots per stool with dbh and height, and trees, n years after the cut that left these trees and cohorts."""
     growth, cohorts = blocks["growth"], int(number(blocks["cutting"], "cohorts", 1))
     young, old, curve = number(growth, "shoots_young"), number(growth, "shoots_old"), curve_of(blocks, "shoots")
 
@@ -94,7 +95,7 @@ def expect_state(name, stools, shoots, trees):
 
 
 def test_pairs():
-    """A grown stand of hop hornbeam is the stand just cut, 25 (5, 13) years later, by the closed forms of growth"""
+    """A grown stand of hop hornbeam is the freshly cut one 25 (5, 13) years later, by the closed forms of growth"""
     for name, (cut, years) in PAIRS.items():
         blocks = blocks_of(cut)
         expect_state(name, *year_of(blocks, years, [t[:3] for t in stems_of(blocks, "trees")]))
@@ -103,7 +104,7 @@ def test_pairs():
 
 
 def test_species():
-    """Stands of other species are a rotation after a cut that left trees as thick as in hop hornbeam (chestnut has its own)"""
+    """Stands of other species are a rotation after a cut that left hop hornbeam's diameters (chestnut has its own)"""
     for species in SPECIES:
         for system in ("simple-coppice", "coppice-with-standards", "large-reserves", "selection-coppice"):
             name = f"{species}-{system}"
@@ -117,7 +118,7 @@ def test_species():
                 left[0][0] = stems_of(blocks, "trees")[0][0]
             curve, old, young = (curve_of(blocks, "shoots"), number(blocks["growth"], "shoots_old"),
                                  number(blocks["growth"], "shoots_young"))
-            there = []  # the older cohorts, as they were after that cut
+            there = []  # the older cohorts just after that cut
             for i in range(1, len(ages)):
                 share = (old + (young - old) * math.exp(-rotation * i / 5)) / len(ages)
                 there.append("  - per_stool: {}\n    dbh_m: {}\n    height_m: {}\n    age_y: {}\n".format(
@@ -128,7 +129,7 @@ def test_species():
 
 
 def test_program():
-    """--years: a stand just cut and never cut again is in that year the grown stand that is shipped"""
+    """--years: a freshly cut stand without cuts becomes the shipped grown stand in that year"""
     for name, (cut, years) in PAIRS.items():
         with Folder() as f:
             scene = f.write("s.yaml", site(options=[("cut", [belt(0, 135, cut, cut_year=1000)]), ("grown", [belt(0, 135, name)])]))
@@ -139,7 +140,7 @@ def test_program():
 
 
 def test_warning():
-    """Stems that are more than a fifth of their basal area off their own curve at their age have a sentence, on the page and in JSON"""
+    """Stems more than a fifth of their basal area off their own curve get a sentence, on the page and in JSON"""
     def warnings(cut_year=None, **stand):
         with Folder() as f:
             place = belt(0, 135, coppice(**stand), **({} if cut_year is None else {"cut_year": cut_year}))

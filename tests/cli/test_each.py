@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--each: one scene changed by each row of a table; --columns. --resume: test_resume.py."""
+"""--each: one scene changed by each row of a table; --columns. test_resume.py tests --resume."""
 import csv
 import io
 import json
@@ -35,7 +35,7 @@ def table(text):
 
 
 def test_rows():
-    """Each row gives what --set with its cells gives; other columns are copied, quoted where they must be; empty cells change nothing"""
+    """Each row equals --set with its cells; other columns are copied, quoted if necessary; empty cells change nothing"""
     with Folder() as f:
         valley(f, 'name,slope,rock.density_kg_m3,title,note\n"a, b",100.csv,2400,it\'s,"say ""x"""\nc,120.csv,,"=1",\n')
         rows = table(good("-b", "-q", "-n", 60, "-f", "csv", "--each", "rows.csv", "s.yaml", cwd=f.path).out)
@@ -51,7 +51,7 @@ def test_rows():
 
 
 def test_foreign_tables():
-    """Semicolons with decimal commas, a byte order mark, CRLF, standard input: the same rows"""
+    """Semicolons with decimal commas, a byte order mark, CRLF, standard input give the same rows"""
     with Folder() as f:
         valley(f, "name,slope,release.x_m\na,100.csv,1.5\nb,110.csv,2\n")
         wanted = run(f, "-f", "csv").out
@@ -62,7 +62,7 @@ def test_foreign_tables():
 
 
 def test_bad_rows():
-    """A bad row is named with its line, the others are computed, and at the end it is said how many failed"""
+    """A bad row is reported with its line, the others are computed, and the end reports the number of failures"""
     with Folder() as f:
         valley(f, "name,slope,controls[0].accepted_kJ\na,100.csv,20\nb,none.csv,20\nc,110.csv,x\nd,110.csv,20,9\ne,120.csv\nf,120.csv,\n")
         r = run(f, "-f", "csv", "--columns", "row.name")
@@ -86,7 +86,7 @@ def test_bad_rows():
 
 
 def test_messages():
-    """What is wrong with a cell is said of its line, once: what follows from a broken profile is not said"""
+    """An error in a cell is reported once, with its line; consequences of a broken profile are not reported"""
     with Folder() as f:
         valley(f, "the line as WKT,id,slope,rock.density_kg_m3\nLINESTRING (0 0; 0 90),a,none.csv,\n,b,one.csv,\n,c,bad.csv,\n,d,100.csv,heavy\n")
         f.write("one.csv", "distance,elevation\n0,50\n")
@@ -102,7 +102,7 @@ def test_messages():
 
 
 def test_columns():
-    """--columns prints these, in their order, of any CSV; one that there is not is told with the nearest"""
+    """--columns prints these columns, in order, for any CSV; an unknown one is reported with the nearest"""
     with Folder() as f:
         valley(f, "name,slope\na,100.csv\n")
         expect_equal(run(f, "-f", "csv", "--columns", "x_m,row.name,option").out, "x_m,row.name,option\n40,a,current\n")
@@ -116,12 +116,12 @@ def test_columns():
 
 
 def alone(f, *sets):
-    """The row of CSV of a scene that is changed by -s."""
+    """Return the CSV row of a scene changed by -s."""
     return table(good("-b", "-n", 60, "-f", "csv", *[w for s in sets for w in ("-s", s)], "s.yaml", cwd=f.path).out)[0]
 
 
 def expect_rows(f, text, wanted):
-    """A table is read as rows of (copied cells, changes): each gives what -s gives."""
+    """Expect a table to give rows of (copied cells, changes): each equals -s."""
     f.write("rows.csv", text)
     r = run(f, "-f", "csv")
     expect_equal(r.status, DONE, str(r))
@@ -134,7 +134,7 @@ def expect_rows(f, text, wanted):
 
 
 def test_quotes():
-    """Quotes as RFC 4180: line breaks within them, doubled ones; a quote inside a cell is a character; lines are counted right"""
+    """Quotes follow RFC 4180: line breaks, doubled quotes; a quote inside a cell is a character; line numbers are right"""
     with Folder() as f:
         valley(f, "")
         two, one = ["rock.diameter_m=2"], ["rock.diameter_m=1.2"]
@@ -154,7 +154,7 @@ def test_quotes():
 
 
 def test_identifiers():
-    """In JSON a copied cell is a number only if that prints as the same text; the answer is as --schema says"""
+    """In JSON a copied cell is a number only if it prints as the same text; the answer matches --schema"""
     numbers = {"1": 1, "0": 0, "-3": -3, "0.5": 0.5, "1.25": 1.25, "100": 100, "9007199254740992": 2**53, "1e-09": 1e-9, "-0.1": -0.1}
     texts = ["007", "1.10", "12345678901234567890", "0123", "1e5", "9007199254740993", "+5", "2E3", "0.1000000000000000055", "1e400", ".5",
              "1_000", "0x10", "NaN", "Infinity", "true", "null", "false", "1.0", "1.", "-0.50", "1,5", "1e-9", "--1", "1 000", "\u0661"]
@@ -176,7 +176,7 @@ def test_identifiers():
 
 
 def test_heads():
-    """A head that is a slip of a path is refused with the path that was meant; names of other columns are copied; both are announced"""
+    """A head with a mistyped path is refused with the nearest path; other names are copied; both are announced"""
     with Folder() as f:
         valley(f, "")
         for head, meant in (("rock.diametr_m", "rock.diameter_m"), ("diameter_m", "rock.diameter_m"), ("Diameter_M", "rock.diameter_m"),
@@ -229,8 +229,7 @@ def test_text_of_files():
 
 
 def test_numbers():
-    """Numbers follow the one convention of the table: what can be read in two ways is refused by line; empty words set nothing;
-    YAML stays"""
+    """Numbers follow the table's one convention: ambiguous ones are refused by line; empty words set nothing; YAML stays"""
     with Folder() as f:
         valley(f, "")
         for text, wanted in (("id;rock.density_kg_m3;controls[0].accepted_kJ\na;2.600;12,5\nb;1.800,5;NA\nc;-;n.d.\n",
@@ -254,7 +253,7 @@ def test_numbers():
 
 
 def limited(f, kilobytes, *words):
-    """A run that may have so much memory: status, output, standard error."""
+    """Run with a memory limit: return status, output, standard error."""
     limit = "" if SANITIZED else f"ulimit -v {kilobytes}; "
     done = subprocess.run(["sh", "-c", limit + 'exec "$0" "$@"', CEDUO, "-b", "-q", "-j", "1", "-n", "1", *words, "s.yaml"], cwd=f.path,
                           env=environment(), capture_output=True, text=True, check=False)
@@ -262,7 +261,7 @@ def limited(f, kilobytes, *words):
 
 
 def test_large_tables():
-    """30 000 heads and 100 000 rows are read in a memory that does not grow with them, also to a file"""
+    """30 000 heads and 100 000 rows are read in constant memory, also to a file"""
     rows, good_rows = 100000, 100000 if FULL else 4000
     with Folder() as f:
         f.write("s.yaml", scene())
@@ -292,7 +291,7 @@ def test_large_tables():
 
 
 def test_other_answers():
-    """--find, --sensitivity and pages, too, are of each row"""
+    """--find, --sensitivity and pages work for each row, too"""
     with Folder() as f:
         valley(f, "name,slope\na,100.csv\nb,110.csv\n")
         words = ["--find", "forest[0].stand.stools.per_ha=500:3000", "--goal", "adc=9", "-f", "csv"]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Edges of the model: rocks without end, nobody arrives, no forest, walls, far coordinates."""
+"""Edge cases of the model: rocks without end, no arrivals, no forest, walls, far coordinates."""
 import math
 import re
 import sys
@@ -14,7 +14,7 @@ from runs import ENDLESS, RESULT, expect_rows, expect_shape, read_csv, wilson
 
 
 def test_unfinished():
-    """Rocks from which nothing takes energy are counted as unfinished, warned of, status 1"""
+    """Rocks that never lose energy count as unfinished, with a warning and status 1"""
     with Folder() as f:
         path = f.write("endless.yaml", ENDLESS)
         done = ceduo("--batch", "-f", "json", "-n", 3, path)
@@ -50,7 +50,7 @@ def expect_unreached(control):
 
 
 def test_nobody_reaches():
-    """A control nobody reaches: nulls in JSON, empty in CSV, 'below' with its bound in the table"""
+    """A control without arrivals: nulls in JSON, empty in CSV, 'below' with its bound in the table"""
     with Folder() as f:
         path = f.write("pit.yaml", scene(slope={"vertices_m": [[0, 10], [10, 0], [20, 10], [40, 10]],
                                                 "segments": [{"rn": 0.3, "rt": 0.8}]},
@@ -70,7 +70,7 @@ def test_nobody_reaches():
 
 
 def test_at_rest():
-    """A rock released at rest: lies still on the flat, goes where it is steep"""
+    """A rock released at rest stays on level ground and starts on a steep slope"""
     with Folder() as f:
         flat = scene(release={"x_m": 5}, slope={"vertices_m": [[0, 0], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.8}]})
         run = result(f.write("flat.yaml", flat))
@@ -84,7 +84,7 @@ def test_at_rest():
 
 
 def test_no_forest():
-    """No forest: one option 'current', no stands, nulls where nothing is, the contact test fails"""
+    """No forest: one option 'current', no stands, null values, the contact test fails"""
     with Folder() as f:
         for name, change in (("omitted", {}), ("empty", {"forest": []})):
             path = f.write(f"{name}.yaml", scene(**change))
@@ -120,7 +120,7 @@ def test_no_stems():
 
 
 def test_wall():
-    """A slope that ends in a wall stops the rocks there, and nothing is unfinished"""
+    """A slope that ends in a wall stops the rocks there; none is unfinished"""
     with Folder() as f:
         walled = scene(slope={"vertices_m": [[0, 64], [100, 0], [100.01, 63]],
                               "segments": [{"rn": 0.35, "rt": 0.875, "roughness_rad": 0.125}]},
@@ -134,7 +134,7 @@ def test_wall():
 
 
 def test_belt_beyond():
-    """A belt beyond the slope is refused with its place, in the file and from the command line"""
+    """A belt beyond the slope is refused with its place, from the file and from the command line"""
     with Folder() as f:
         for change, path, words in (({"to_m": 200}, "forest[0].to_m", "outside the slope"),
                                     ({"from_m": 170, "to_m": 200}, "forest[0]", "outside the slope")):
@@ -158,7 +158,7 @@ def test_fewer_shoots():
 
 
 def test_right_angle():
-    """A facet as steep as a wall is refused, one that is hardly less is not"""
+    """A vertical facet is refused, a slightly lower one is not"""
     with Folder() as f:
         path = f.write("s.yaml", scene(release=None))
         key = "slope.segments[0].roughness_rad"
@@ -169,7 +169,7 @@ def test_right_angle():
 
 
 def shifted(by, up):
-    """The same scene at another place; every coordinate is a multiple of 2^-6, so that no bit is lost."""
+    """Return the scene at another origin; all coordinates are multiples of 2^-6, so that no bit is lost."""
     points = [[0, 64], [10.5, 50.25], [30.125, 40], [52.75, 22.5], [80, 8.125], [110.25, 0], [300, 0]]
     belts = [{"from_m": 0, "to_m": 40.25, "stand": stand()}, {"from_m": 45.5, "to_m": 90, "stand": stand(name="second")}]
     return scene(release={"x_m": 2.5 + by, "vx_m_s": {"mean": 2, "spread": 0.5}},
@@ -180,7 +180,7 @@ def shifted(by, up):
 
 
 def test_survey_coordinates():
-    """Survey coordinates give the same numbers, bit by bit, and are printed as given"""
+    """Survey coordinates give the same numbers to the bit, and are printed as given"""
     with Folder() as f:
         near, far = (f.write("s.yaml", shifted(by, up)) and result(f.path / "s.yaml", "-n", 3000)
                      for by, up in ((0, 0), (480000, 4096)))

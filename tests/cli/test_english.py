@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: quick
-"""The English of comments, names and messages: tests/language.txt has the patterns that are counted.
+"""Plain English in comments, names and messages: tests/language.txt lists the counted patterns.
 
-With --show PATTERN-WORD: prints each place where a pattern with that word is found.
+With --show WORD: prints each match of the patterns that contain the word.
 """
 import re
 import subprocess
@@ -24,7 +24,7 @@ def files(*folders):
 
 
 def comments(text):
-    """Position and words of each comment, in one line."""
+    """Yield position and text of each comment, in one line."""
     for found in COMMENT.finditer(text):
         body = found[1] or found[2]
         if body and "untaken:" not in body and "SPDX" not in body:
@@ -32,14 +32,14 @@ def comments(text):
 
 
 def names(text):
-    """Position and identifier, of what is no comment and no string."""
+    """Yield position and text of each identifier outside comments and strings."""
     bare = COMMENT.sub(lambda found: " " * len(found[0]), text)
     for found in re.finditer(r"[A-Za-z_]\w*", bare):
         yield found.start(), found[0]
 
 
 def messages(text):
-    """Position and English of each text that people read."""
+    """Yield position and English text of each translated message."""
     for found in MESSAGE.finditer(COMMENT.sub(lambda f: f[0] if f[0][0] in "\"'" else " " * len(f[0]), text)):
         strings = re.findall(r'"((?:\\.|[^"\\])*)"', found[1])
         yield found.start(), "".join(strings[found[0].startswith(("P_", "NP_")):])
@@ -57,7 +57,7 @@ def patterns():
 
 
 def found():
-    """For each pattern its line, what it allows, and the places where it is found."""
+    """Yield each pattern with its line, its allowed count and its matches."""
     texts = {path: path.read_text(encoding="utf-8") for path in files("src", "include", "tests", "man")}
     read = {}
     for kind, (reader, folders) in READERS.items():
@@ -70,7 +70,7 @@ def found():
 
 
 def test_patterns():
-    """Each pattern of language.txt is found exactly where it is allowed"""
+    """Each pattern of language.txt has exactly its allowed count"""
     wrong = [f"language.txt:{number}: {kind} {pattern!r}: {len(places)}, allowed {allowed}" + "".join(f"\n#   {p}" for p in places[:8])
              for number, kind, allowed, pattern, places in found() if len(places) != allowed]
     expect(not wrong, *wrong)

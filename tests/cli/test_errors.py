@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The error table of the manual, row by row: each row is caused, and its message, place, status and cost are looked at.
+"""The error table of the manual, row by row: each row is caused, and its message, place, status and cost are checked.
 
-Cost: 10 s of processor time, and 64 MiB beyond the largest file that is read. Nothing on standard output.
+Cost: 10 s of processor time, and 64 MiB beyond the largest file. Nothing on standard output.
 """
 import os
 import re
@@ -34,7 +34,7 @@ class Ended:
 
 
 def limited(*arguments, program=CEDUO, stdin=subprocess.DEVNULL, stdout=None, env=None, **options):
-    """Runs the program within the processor time; a hang, a crash or a control character is a failure."""
+    """Run the program within the processor time; a hang, a crash or a control character fails the test."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
 
@@ -45,7 +45,7 @@ def limited(*arguments, program=CEDUO, stdin=subprocess.DEVNULL, stdout=None, en
         watch.start()
         _, status, usage = os.wait4(p.pid, 0)
         watch.cancel()
-        p.returncode = os.waitstatus_to_exitcode(status)  # it is waited for: Popen must not look again
+        p.returncode = os.waitstatus_to_exitcode(status)  # already reaped: Popen must not wait again
         out.seek(0)
         err.seek(0)
         bytes_out, bytes_err = out.read(), err.read()
@@ -64,13 +64,13 @@ def expect_small(done, size):
 # ---- the table ----
 
 def as_pattern(row):
-    """'...' stands for any words; what is in brackets at the end is a remark."""
+    """'...' matches any words; final brackets are a remark."""
     text = re.sub(r" \((status [^)]*|in the result)\)$", "", row)
     return ".*".join(re.escape(part.strip()) for part in text.split("..."))
 
 
 def expect_message(row, done, place, status):
-    """The row's message stands in one line, behind its place."""
+    """Expect the row's message in one line, after its place."""
     expect_equal(done.status, status, f"status; {done}")
     expect_equal(done.out, "", f"standard output; {done}")
     lines = [line for line in done.err.splitlines() if re.search(as_pattern(row), line)]
@@ -79,10 +79,10 @@ def expect_message(row, done, place, status):
         expect(any(line.startswith(place) for line in lines), f"not at {place!r}:", done)
 
 
-# ---- faults in the three files ----
+# ---- errors in the three files ----
 
 class File:
-    """A change in one of the three files of test_input; @@ is where the caret stands."""
+    """A change in one of the three files of test_input; @@ marks the caret."""
 
     def __init__(self, name, old, new, at=True):
         self.name, self.old, self.new, self.at = name, old, new, at
@@ -119,7 +119,7 @@ SMALL = {"ceduo": "scene/1", "rock": {"diameter_m": 0.5}, "slope": "line.csv", "
 
 
 class Text:
-    """A scene of its own: the whole text with @@ at the place."""
+    """A separate scene: the whole text with @@ at the place."""
 
     def __init__(self, text, more=None, place=None):
         self.text, self.more, self.place = text, more or {}, place
@@ -141,14 +141,14 @@ class Text:
 
 
 def csv(content, place, **slope):
-    """A scene over a CSV profile with a fault."""
+    """A scene with an invalid CSV profile."""
     import json
     mapping = {**SMALL, "slope": {"csv": "line.csv", **slope}} if slope else SMALL
     return Text(json.dumps(mapping), {"line.csv": content}, place)
 
 
 class Sparse:
-    """A file of a gigabyte that takes no room on the disk."""
+    """A file of a gigabyte that uses no disk space."""
 
     def __init__(self, name, most):
         self.name, self.most = name, most
@@ -162,8 +162,8 @@ class Sparse:
             for mode in ("--check", "--batch"):
                 done = limited(mode, "s.yaml", cwd=f.path)
                 expect_message(row, done, f"{self.name}: ", INPUT)
-                expect_small(done, 0)  # told from its size
-            with open(path, "rb") as bytes_in:  # of standard input nothing is told in advance
+                expect_small(done, 0)  # detected by its size
+            with open(path, "rb") as bytes_in:  # the size of standard input is unknown
                 if self.name != "line.csv":
                     with subprocess.Popen(["cat"], stdin=bytes_in, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as cat:
                         done = limited("--check", "-", stdin=cat.stdout)
@@ -175,7 +175,7 @@ class Sparse:
 # ---- the command line ----
 
 class Words:
-    """Words of the command line, on a good scene unless they name their own; '@' is that scene."""
+    """Words of the command line, on a good scene unless they name one; '@' is that scene."""
 
     def __init__(self, *words, status=USAGE, start="ceduo: ", stdout=None):
         self.words, self.status, self.start, self.stdout = words, status, start, stdout
@@ -191,7 +191,7 @@ class Words:
 
 
 class Set:
-    """Changes by --set; @@ is the place within the last of them."""
+    """Changes by --set; @@ is the place in the last one."""
 
     def __init__(self, *changes):
         self.changes = changes
@@ -202,7 +202,7 @@ class Set:
 
 
 def as_nobody(row, *words, forbidden, status, start):
-    """Run without the rights of root. The program is copied to where nobody can start it."""
+    """Run as an unprivileged user, with a copy of the program in an accessible folder."""
     if os.geteuid() != 0:
         program, rights = CEDUO, {}
     else:
@@ -247,14 +247,14 @@ def moving(row):
     ground = {"vertices_m": [[0, 0], [100, 0]], "segments": [{"rn": 1, "rt": 1, "roughness_rad": 0, "friction": 0}]}
     with Folder() as f:
         path = f.write("s.yaml", scene(release={"x_m": 5, "height_m": 3}, slope=ground, controls=[{"x_m": 30}],
-                                       simulation={"rocks": 4, "law": "lumped"}))  # by crsp Rn falls with the speed
+                                       simulation={"rocks": 4, "law": "lumped"}))  # under crsp Rn falls with the speed
         done = limited("--batch", "-s", "uncertainty=none", path)
     expect_equal((done.status, done.err), (RUN, ""), str(done))
     expect(re.search(as_pattern(row), " ".join(done.out.split())), done)
 
 
 class Elsewhere:
-    """What another test looks at."""
+    """Tested by another test."""
 
     def __init__(self, path, name):
         self.path, self.name = path, name
@@ -264,7 +264,7 @@ class Elsewhere:
 
 
 def on_terminal(row, name, **instead):
-    """The terminal program on a terminal of that name."""
+    """The terminal program with this TERM."""
     master, slave = os.openpty()
     try:
         streams = {"stdin": slave, "stdout": slave, **instead}
@@ -534,7 +534,7 @@ CASES = {
 }
 
 
-# ---- floods: a large file of one fault ----
+# ---- floods: a large file of one error ----
 
 HEAD = "ceduo: scene/1\nrock: {diameter_m: 0.5}\n"
 LINEAR = HEAD + "slope: {vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
@@ -543,7 +543,7 @@ MANY = "at most 1000 can be computed"
 NAMED = HEAD + "slope: line.csv\ncontrols_m: [75]\n"
 LARGE = 60 if FULL else 12
 FLOODS = [
-    # (what, scene and its CSV as functions: made when needed, for what the test holds counts as the program's; words)
+    # (name, functions for the scene and its CSV, words); made late, because memory of the test counts as the program's
     ("a million CSV rows that are no numbers", lambda: NAMED, lambda: "distance,elevation\n" + "x,1\n" * 1000000,
      "999 more of this kind, on line 3, 4, 5, 6, 7 …\n999000 more problems"),
     (f"{LARGE} MiB of blank CSV lines", lambda: NAMED.replace("75", "175"), lambda: LINE + "\n" * (LARGE << 20), "outside the slope"),
@@ -583,7 +583,7 @@ def flood(text, csv_text, words):
 
 
 def test_shared_fault():
-    """A file that is no YAML and that two belts name is reported once, and nothing else is"""
+    """An invalid YAML file that two belts use is reported once, and nothing else"""
     with Folder() as f:
         f.write("s.yaml", LINEAR + "controls_m: [75]\nforest:\n" +
                 "".join(f"  - {{from_m: {i}, to_m: {i + 1}, stand: stand.yaml}}\n" for i in range(2)))
@@ -600,7 +600,7 @@ def test_names_on_the_screen():
                 f"    forest: [{{from_m: 10, to_m: 20, stand: {{name: {nasty}, trees: [{{per_ha: 9, dbh_m: 0.3, height_m: 20}}]}}}}]\n"
                 "simulation: {rocks: 20}\n")
         f.write("play.txt", "wait idle\n" + "".join(f"key {view}\ndump -\nkey Down Enter\ndump -\nkey Esc\n" for view in range(1, 7)))
-        done = limited("--script", "play.txt", "s.yaml", cwd=f.path)  # raw ones are looked for there
+        done = limited("--script", "play.txt", "s.yaml", cwd=f.path)  # raw ones are searched there
         expect_equal((done.status, done.err), (0, ""), str(done))
         expect_in("evil", done.out)
 

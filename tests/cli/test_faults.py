@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow
-"""Faults of the machine: no memory, a full disk, failing calls, a sudden death, no threads, streams that are closed.
+"""Failures of the machine: no memory, a full disk, failing calls, sudden death, no threads, closed streams.
 
-A library that is loaded before the C library (faults.c) makes one call after the other go wrong.
+A library that is loaded before the C library (faults.c) makes one call after the other fail.
 """
 import functools
 import itertools
@@ -28,7 +28,7 @@ VARIANT = Path(os.environ.get("BUILD", "build/release")).name
 
 @functools.cache
 def library():
-    """faults.c, compiled."""
+    """Compile faults.c."""
     with Folder() as f:
         subprocess.run([*shlex.split(os.environ.get("CC") or "gcc"), "-D_GNU_SOURCE", "-shared", "-fPIC", "-O1", "-o", f.path / "faults.so",
                         Path(__file__).parent / "faults.c", "-ldl"], check=True)
@@ -48,7 +48,7 @@ class Place(Folder):
         return self
 
     def with_fault(self, fault, at=0, on=False, after=None):
-        """The environment of a program with the fault. `after`: only behind the writing of this file."""
+        """Return the environment of a program with the fault. `after`: only after this file was written."""
         if SANITIZED:
             raise Skip("the sanitizers have their own malloc")
         mark = self.path / "mark"
@@ -57,7 +57,7 @@ class Place(Folder):
                            FAULT_ON="1" if on else None, FAULT_FROM=after)
 
     def run(self, *words, **fault):
-        """Runs the program with the fault. Says whether it came to it."""
+        """Run the program with the fault. Returns whether the fault occurred."""
         mark = self.path / "mark"
         done = subprocess.run([CEDUO, *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               env=self.with_fault(**fault), cwd=self.work, timeout=PATIENCE, check=False)
@@ -66,8 +66,8 @@ class Place(Folder):
         return done, mark.exists()
 
     def allocations(self, *words, after=None):
-        """Numbers of allocations to fail: the first that comes by the same functions, and the one behind all. With FULL each, where
-        they are few: a page asks for tens of thousands, most of them for what is not known."""
+        """Return indices of allocations to fail: the first of each call path, and one after all. With FULL all, unless there
+        are many: a page makes tens of thousands, mostly for uncertainty."""
         ways = self.path / "ways"
         env = self.with_fault("ways", after=after) | {"FAULT_WAYS": str(ways)}
         subprocess.run([CEDUO, *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, env=env, cwd=self.work, check=True)
@@ -86,7 +86,7 @@ def told(done, at):
 # ---- memory ----
 
 def no_memory(words, on):
-    """Allocations fail in turn: status 1 or 3 and 'out of memory', or the same result as ever."""
+    """Allocations fail in turn: status 1 or 3 and 'out of memory', or the usual result."""
     with Place() as place:
         wanted, _ = place.run(*words, fault="none")
         expect_equal(wanted.returncode, DONE, wanted.stderr)
@@ -110,49 +110,49 @@ def no_memory(words, on):
         expect(failed > 20, f"{failed} failures: is the library loaded?")
 
 
-CERTAIN = () if FULL else ("-s", "uncertainty=none")  # most of the time of a page goes to what may be true
+CERTAIN = () if FULL else ("-s", "uncertainty=none")  # uncertainty takes most of a page's time
 BATCH = ("--batch", "-f", "csv", "-n", 20, "-j", 1, "scene.yaml")
 
 
 def test_memory_check():
-    """Allocations of --check fails once: status 1 or 3, 'out of memory', or all is well"""
+    """Allocations of --check fail once: status 1 or 3 with 'out of memory', or success"""
     no_memory(("--check", "scene.yaml"), False)
 
 
 def test_memory_check_on():
-    """From some allocation of --check on no more memory: status 1 or 3, 'out of memory'"""
+    """All allocations of --check fail from one on: status 1 or 3, 'out of memory'"""
     no_memory(("--check", "scene.yaml"), True)
 
 
 def test_memory_batch():
-    """Allocations of a run with CSV fails once"""
+    """Allocations of a run with CSV fail once"""
     no_memory(BATCH, False)
 
 
 def test_memory_batch_on():
-    """From some allocation of a run on no more memory"""
+    """All allocations of a run fail from one on"""
     no_memory(BATCH, True)
 
 
 def test_memory_page():
-    """Allocations of a run with its page, and of one with a change and years, fails once"""
+    """Allocations of a run with its page, and of one with a change and years, fail once"""
     no_memory(("--batch", "-n", 20, "-j", 1, *CERTAIN, "scene.yaml"), False)
     no_memory(("--years", "0:3", "-f", "json", "-n", 2, "-j", 1, "-s", "forest[0].stand.stools.spacing_m=0.5", "scene.yaml"), True)
 
 
 def test_memory_plot():
-    """From some allocation of a picture on no more memory"""
+    """All allocations of a picture fail from one on"""
     no_memory(("--plot", "profile", "-n", 20, "-j", 1, "scene.yaml"), True)
 
 
 def test_memory_survey():
-    """Allocations of a survey fails once, and in check-all from some allocation on"""
+    """Allocations of a survey fail once, and in check-all from one on"""
     for on in (False, True) if FULL else (False,):
         no_memory(("--survey", "six-plots.csv", "-q"), on)
 
 
 def test_memory_output():
-    """Allocations of a run that writes a file fails once: the old file is whole, or the new one"""
+    """Allocations of a run that writes a file fail once: the old file is complete, or the new one"""
     with Place() as place:
         out = place.work / "out.csv"
         place.run(*BATCH, "-o", "out.csv", fault="none")
@@ -168,7 +168,7 @@ def test_memory_output():
 
 
 def save_without_memory(on):
-    """A change and its save: done and said so, or the program ends; the file is the old one or the new one."""
+    """A change and a save: done and reported, or the program ends; the file is the old one or the new one."""
     with Place() as place:
         place.write("play.txt", "key 3 Down\nkey Enter Ctrl-U\ntype 0.75\nkey Enter\ndump before.txt\nkey s\ndump after.txt\n")
         scene, command = place.work / "scene.yaml", ("--script", "../play.txt", "scene.yaml")
@@ -190,7 +190,7 @@ def save_without_memory(on):
             seen[(found == new, done.returncode)] = seen.get((found == new, done.returncode), 0) + 1
             expect(found in (FAST, new), f"at {at}: neither the old file nor the new one", found)
             expect_equal({p.name for p in place.work.iterdir()} - set(FILES), {p.name for p in dumps if p.exists()}, told(done, at))
-            if done.returncode == DONE:  # a call of the C library that failed is an error of the save
+            if done.returncode == DONE:  # a failed call of the C library is an error of the save
                 screen = Screen(dumps[1].read_text(), 80, 24)
                 if found == new:
                     expect_equal(screen.note, "saved scene.yaml", told(done, at))
@@ -206,23 +206,23 @@ def save_without_memory(on):
 
 
 def test_memory_save():
-    """Allocations of a save of the terminal program fail once: old file or new one whole, the screen or the status says which"""
+    """Allocations of a save of the terminal program fail once: a complete file, and the screen or status tells which one"""
     save_without_memory(False)
 
 
 def test_memory_save_on():
-    """From some allocation of a save on no more memory: old file or new one whole, a status that tells"""
+    """All allocations of a save fail from one on: the old file or the new one is complete, with the right status"""
     save_without_memory(True)
 
 
-# ---- calls that fail, and a sudden death ----
+# ---- failing calls, and sudden death ----
 
-# A change, saved as scene.yaml again: the file that the terminal program must not lose.
+# A change, saved as scene.yaml again: the terminal program must not lose this file.
 SAVE = "key 3 Down\nkey Enter Ctrl-U\ntype 0.75\nkey Enter\nkey s\nkey Enter Enter\n"
 
 
 def saves(place):
-    """(what, command, the file) of what writes a file."""
+    """Return (name, command, file) of the commands that write a file."""
     place.write("play.txt", SAVE)
     return (("-o", (*BATCH, "-o", "out.csv"), place.work / "out.csv"),
             ("a save of the terminal program", ("--script", "../play.txt", "scene.yaml"), place.work / "scene.yaml"))
@@ -265,18 +265,18 @@ def one_call(fault):
 
 
 def test_calls():
-    """Each call that opens, writes, syncs, closes, renames or removes fails once: status, old file or new one whole, nothing left"""
+    """Each call that opens, writes, syncs, closes, renames or removes fails once: status, a complete file, no leftovers"""
     one_call("call")
 
 
 def test_kill():
-    """SIGKILL before each call of a save: the old file or the new one is whole, what is left behind is no scene"""
+    """SIGKILL before each call of a save: the old file or the new one is complete, leftovers are no scenes"""
     one_call("kill")
 
 
 def pair_with(fault):
-    """A fit that replaces the scene and the draws of an earlier one, with a fault at each call: how often they do not belong
-    together, and the statuses."""
+    """A fit that replaces the scene and the draws of an earlier one, with a fault at each call: returns how often they do not
+    match, and the statuses."""
     mixed, statuses, seen, at = 0, set(), set(), 0
     with Place() as place:
         place.write("work/quarry.yaml", quarry())
@@ -311,20 +311,20 @@ def pair_with(fault):
 
 
 def test_calls_pair():
-    """--calibrate -o: only where the second of two renames fails do the scene and its draws not belong together, and the status says so"""
+    """--calibrate -o: scene and draws mismatch only if the second of two renames fails, and the status reports it"""
     mixed, statuses = pair_with("call")
     expect(mixed <= 1 and OUTPUT in statuses, mixed, statuses)
 
 
 def test_kill_pair():
-    """--calibrate -o: SIGKILL before each call leaves draws of this fit beside the old scene only between the two renames"""
+    """--calibrate -o: SIGKILL before each call leaves new draws and the old scene only between the two renames"""
     mixed, statuses = pair_with("kill")
     expect(mixed <= 1, mixed)
     expect_equal(statuses, {-9})
 
 
 def test_calls_on():
-    """From some call on all fail: a status that tells, old file or new one whole; what could not be removed is no scene"""
+    """All calls fail from one on: right status, a complete file; a file that could not be removed is no scene"""
     with Place() as place:
         for what, command, file in saves(place):
             old = file.read_bytes() if file.exists() else b"old"
@@ -345,7 +345,7 @@ def test_calls_on():
 
 
 def test_calls_straight():
-    """What is no file is written as it is: where it cannot be opened, written or closed, status 4 says so"""
+    """A device is written directly: if it cannot be opened, written or closed, the status is 4"""
     with Place() as place:
         for on in (False, True):
             at, reached, failed = 0, True, 0
@@ -360,7 +360,7 @@ def test_calls_straight():
 
 
 def test_short_writes():
-    """Writes that take a byte at a time, or are interrupted, give the same bytes"""
+    """Writes of one byte at a time, or interrupted ones, give the same bytes"""
     with Place() as place:
         wanted, _ = place.run(*BATCH, fault="none")
         for more in ((), ("-o", "out.csv")):
@@ -370,7 +370,7 @@ def test_short_writes():
 
 
 def test_no_threads():
-    """Where no thread can be started the result is the same to the last byte; the terminal program says so"""
+    """If no thread can be started the result is the same to the last byte; the terminal program reports it"""
     with Place() as place:
         wanted, _ = place.run(*BATCH[:-1], "-j", 4, "-n", 5000, "scene.yaml", fault="none")
         done, reached = place.run(*BATCH[:-1], "-j", 4, "-n", 5000, "scene.yaml", fault="threads")
@@ -385,17 +385,17 @@ def test_no_threads():
         expect(reached and done.returncode in (RUN, INPUT) and done.stderr != b"", told(done, 0))
 
 
-# ---- folders that belong to others ----
+# ---- folders of other users ----
 
 def test_read_only_folder():
-    """A save, and -o, into a folder where nothing may be written: said, the old file whole, nothing left behind"""
+    """A save, and -o, into a read-only folder: reported, the old file complete, no leftovers"""
     with Folder() as f:
         f.path.chmod(0o755)
-        shutil.copy(CEDUO, f.path / "ceduo")  # that of the tests may lie where others may not go
+        shutil.copy(CEDUO, f.path / "ceduo")  # the tests' folder may be inaccessible to others
         f.write("theirs/scene.yaml", FAST)
         f.write("play.txt", "key 3 Down\nkey Enter Ctrl-U\ntype 0.75\nkey Enter\nkey s\ndump -\nkey Esc q\ndump -\n")
         os.chmod(f.path / "theirs", 0o555)
-        counts = f.path / "counts"  # of a build that counts: the other user cannot write to their own place
+        counts = f.path / "counts"  # a coverage build: the other user cannot write its counts
         counts.mkdir()
         counts.chmod(0o777)
         other = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
@@ -408,7 +408,7 @@ def test_read_only_folder():
             except PermissionError as why:
                 raise Skip(f"another user cannot be taken on: {why}") from why
 
-        for mode in (0o444, 0o666):  # a file that may be written is put in its place by a new one, too
+        for mode in (0o444, 0o666):  # a writable file is also replaced by a new one
             os.chmod(f.path / "theirs/scene.yaml", mode)
             done = run("--script", "../play.txt", "scene.yaml")
             expect(done.returncode == DONE and done.stderr == b"", told(done, 0))
@@ -427,7 +427,7 @@ def test_read_only_folder():
 # ---- a small stack ----
 
 def test_small_stack():
-    """With a stack of 64 KiB every mode does its work, and writes its file"""
+    """With a stack of 64 KiB every mode works, and writes its file"""
     if SANITIZED or VARIANT != "release":
         raise Skip("a build that is not optimised needs more")
 
@@ -455,7 +455,7 @@ def test_small_stack():
 # ---- disks ----
 
 def test_file_size_limit():
-    """A file beyond the limit of the process: status 4, the old file whole, nothing left behind"""
+    """A file beyond the process limit: status 4, the old file complete, no leftovers"""
     def limit():
         resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
 
@@ -471,7 +471,7 @@ def test_file_size_limit():
 
 
 def test_full_disk():
-    """A disk without room: status 4, the old file whole, nothing left behind"""
+    """A full disk: status 4, the old file complete, no leftovers"""
     if not shutil.which("unshare") or os.geteuid() != 0:
         raise Skip("needs a file system of its own")
     with Folder() as f:
@@ -490,7 +490,7 @@ def test_full_disk():
 
 
 def test_replaced_while_read():
-    """A scene that is replaced again and again is read as it was or as it is, never half"""
+    """A scene that is replaced repeatedly is read in its old or new form, never half"""
     with Folder() as f:
         for name, text in FILES.items():
             f.write(name, text)
@@ -509,7 +509,7 @@ def test_replaced_while_read():
 # ---- streams ----
 
 def test_streams_closed():
-    """All three standard streams closed: a file is still written whole; without a file status 4; a bad scene status 3"""
+    """All three standard streams closed: a file is still written completely; without a file status 4; a bad scene status 3"""
     with Folder() as f:
         for name, text in FILES.items():
             f.write(name, text)
@@ -524,7 +524,7 @@ def test_streams_closed():
 
 
 def test_reader_leaves():
-    """A reader that takes one byte ends the program by SIGPIPE, without a word"""
+    """A reader that takes one byte ends the program by SIGPIPE, without a message"""
     done = subprocess.run(["bash", "-c", f"{shlex.quote(CEDUO)} --list-parameters | head -c 1; echo \" ${{PIPESTATUS[0]}}\""],
                           env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
     expect(done.stdout in (b"p 0\n", b"p 141\n", b"p 4\n") and done.stderr == b"", told(done, 0))

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--find where a goal is exactly what is asked for, and where several controls say different things.
+"""--find with a goal that equals the target exactly, and with several controls.
 
-What is found is known beforehand: the ADC of N trees of 1/4 m a hectare and a rock of 3/4 m is 10000/N m; and rocks of
-2 kg that are released with 3 m/s where gravity is 4 m/s2 have 13 J after 1/2 s and 25 J after 1 s.
+The results are known: the ADC of N trees of 1/4 m per hectare and a rock of 3/4 m is 10000/N m. Rocks of 2 kg released at 3 m/s
+with gravity 4 m/s2 have 13 J after 1/2 s and 25 J after 1 s.
 """
 import math
 import re
@@ -31,7 +31,7 @@ def find(mapping, path, lo, hi, goal, target=None):
 
 
 def is_found(mapping, goal, target=None):
-    """Whether 400 trees a hectare reach a goal, nothing else being looked at."""
+    """True if 400 trees per hectare meet a goal; no other value is tried."""
     found = find(mapping, PER_HA, 400, 400, goal, target)
     expect_equal((found["value"], found["nearest"]), (400, None) if found["found"] else (None, 400), goal)
     return found["found"]
@@ -43,14 +43,14 @@ def trees(per_ha, **changes):
 
 
 def wood(*belts, controls=(100,), **changes):
-    """Belts (from, to, trees per ha), the threshold being 25 m."""
+    """Return belts (from, to, trees per ha) with the threshold at 25 m."""
     return scene(rock={"shape": "sphere", "diameter_m": 0.75}, controls=[{"x_m": x} for x in controls],
                  forest=[{"from_m": a, "to_m": b, "stand": trees(n)} for a, b, n in belts],
                  simulation={"rocks": 1, "threshold_m": 25}, **changes)
 
 
 def drop(accepted=None, controls=(4,)):
-    """Rocks that fly over level ground, all alike, with a wood behind the controls."""
+    """Equal rocks that fly over level ground, with a forest after the controls."""
     return scene(rock={"shape": "sphere", "mass_kg": 2}, release={"x_m": 1, "height_m": 50, "vx_m_s": 3},
                  slope={"vertices_m": [[0, 0], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.8}]},
                  controls=[{"x_m": x} if accepted is None else {"x_m": x, "accepted_kJ": accepted} for x in controls],
@@ -58,7 +58,7 @@ def drop(accepted=None, controls=(4,)):
 
 
 def test_adc_equal():
-    """Goal adc: an ADC that equals the target does not reach it, by the light's limit or another"""
+    """Goal adc: an ADC equal to the target does not meet it, for the light's limit or another"""
     mapping = wood((0, 100, 400))  # 25 m
     for target in (None, 25, below(25)):
         expect(not is_found(mapping, "adc", target), "an ADC of 25 m is not below", target or "the threshold of 25 m")
@@ -68,7 +68,7 @@ def test_adc_equal():
 
 
 def test_free_run_equal():
-    """Goal free-run: a chance that equals the target reaches it"""
+    """Goal free-run: a probability equal to the target meets it"""
     mapping, chance = wood((0, 100, 400)), math.exp(-1)  # over 25 m with an ADC of 25 m
     expect(is_found(mapping, "free-run", chance), chance)
     expect(not is_found(mapping, "free-run", below(chance)), below(chance))
@@ -76,26 +76,26 @@ def test_free_run_equal():
 
 
 def test_energy_equal():
-    """Goal energy: a mean that equals the target reaches it"""
+    """Goal energy: a mean equal to the target meets it"""
     expect(is_found(drop(), "energy", 0.025), "25 J")
     expect(not is_found(drop(), "energy", below(0.025)), "less than 25 J")
 
 
 def test_exceed_equal():
-    """Goal exceed: a share that equals the target reaches it; rocks with just the accepted energy are none of it"""
+    """Goal exceed: a share equal to the target meets it; rocks with exactly the accepted energy do not count"""
     expect(is_found(drop(accepted=0.025), "exceed", 0), "25 J are no more than 25 J")
     expect(is_found(drop(accepted=0.0249), "exceed", 1), "all")
     expect(not is_found(drop(accepted=0.0249), "exceed", below(1)), "less than all")
 
 
 def test_arrive_equal():
-    """Goal arrive: a share that equals the target reaches it"""
+    """Goal arrive: a share equal to the target meets it"""
     expect(is_found(drop(), "arrive", 1), "all")
     expect(not is_found(drop(), "arrive", below(1)), "less than all")
 
 
 def test_digits():
-    """The page gives a value with four digits, and it still reaches the goal; JSON has them all"""
+    """The page prints a value with four digits, and it still meets the goal; JSON has all digits"""
     with Folder() as f:
         path, per_ha = f.write("s.yaml", wood((0, 100, 400))), "forest[0].stand.trees[0].dbh_m"
         orders = ("--find", f"{per_ha}=0.01:2", "--goal", "adc=17", "-n", 1, path)
@@ -106,7 +106,7 @@ def test_digits():
 
 
 def test_nobody_arrives():
-    """Goal energy: where no rock arrives all is well"""
+    """Goal energy: met if no rock arrives"""
     stopped = drop(controls=(99,))
     stopped["slope"]["segments"] = [{"rn": 0, "rt": 0.1, "friction": 1}]
     with Folder() as f:
@@ -116,7 +116,7 @@ def test_nobody_arrives():
 
 
 def test_energy_by_index():
-    """Goal energy by the index: what it leaves of the mean; where nothing stands before the control that is all of it"""
+    """Goal energy by the index: the residual mean; without stems before the control it is the whole mean"""
     mapping = drop()
     mapping["simulation"]["contact_model"] = "index"
     expect(is_found(mapping, "energy", 0.025), "25 J")
@@ -124,7 +124,7 @@ def test_energy_by_index():
 
 
 def test_exceed_one_in_twenty():
-    """Goal exceed without a value: 1 rock of 20 is as many as may exceed, 2 are too many"""
+    """Goal exceed without a value: 1 rock in 20 may exceed, 2 are too many"""
     mapping = wooded_scene(forest=[{"from_m": 10, "to_m": 95, "stand": trees(400)}], simulation={"rocks": 20})
     with Folder() as f:
         wooded = result(f.write("s.yaml", mapping))["options"][0]["controls"][0]["wooded"]
@@ -136,11 +136,11 @@ def test_exceed_one_in_twenty():
 
 
 def test_worst_control():
-    """The goal counts at the control where it is worst, in whatever order they stand"""
+    """The goal counts at the worst control, in any order"""
     belts = (0, 60, 400), (60, 100, 1000)  # ADC 25 and 10 m
     for controls in ((60, 100), (100, 60)):
         mapping = wood(*belts, controls=controls)
-        path = "forest[1].stand.trees[0].per_ha"  # which only the control at 100 m lies behind
+        path = "forest[1].stand.trees[0].per_ha"  # only the control at 100 m lies after it
         found = find(mapping, path, 200, 1000, "adc", 30)
         expect_equal((found["value"], found["side"]), (334, "smallest"), f"adc, {controls}")  # 10^4/30 = 333.3
         chance = math.exp(-1)
@@ -156,7 +156,7 @@ def test_worst_control():
 
 
 def test_from_none():
-    """A range may begin at no stems of a kind: 10^4/(n b) is below 25 m from 401 on with b + d = 1 m, and at 0 there is none"""
+    """A range may begin at no stems of a kind: 10^4/(n b) is below 25 m from 401 on with b + d = 1 m, and at 0 there is no ADC"""
     mapping = wood((0, 100, 400))
     expect_equal(find(mapping, PER_HA, 0, 1000, "adc")["value"], 401, "the first below 25 m")
     expect(not find(mapping, PER_HA, 0, 0, "adc")["found"], "without stems there is nothing to meet")
@@ -164,7 +164,7 @@ def test_from_none():
 
 
 def test_none_of_a_kind():
-    """No stems of a kind is as if the kind were not said; none of all is no forest, rock for rock"""
+    """No stems of a kind equals an omitted kind; no stems at all equals no forest, rock for rock"""
     shoots = {"stools": {"per_ha": 2000, "spacing_m": 0.4}, "shoots": [{"per_ha": 6000, "dbh_m": 0.06, "height_m": 7}]}
     no_shoots = {"stools": {"per_ha": 0, "spacing_m": 0.4}, "shoots": [{"per_ha": 0, "dbh_m": 0.06, "height_m": 7}]}
 

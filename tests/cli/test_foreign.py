@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Of a file that is none of ceduo's, messages show its first 20 characters and no more, however it is named."""
+"""Messages about an unrecognized file show its first 20 characters and no more, for every way to name it."""
 import json
 import sys
 from pathlib import Path
@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import DONE, Folder, ceduo, expect, expect_equal, expect_in, run_all, scene, stand  # noqa: E402
 
-# Every word of them from the 21st character on is one that ceduo never says by itself.
+# Every word from the 21st character on is foreign to ceduo's messages.
 PRIVATE = {
     "passwd": "qroot:x:0:0:wurzel:/zroot:/zbin/zbash\nqdaemon:x:1:1:qdemon:/zusr/zsbin:/zusr/znologin\nceduo:x:2:2:qced:/zhome/ceduo:/zsh\n",
     "keys.yaml": "db_user: qadmin\ndb_passphrase: qhunter2qhunter2\nqlist: [qalpha, 4711.0815]\nname: qname\ntrees: qtrees\n",
@@ -34,7 +34,7 @@ FIRST = PRIVATE["passwd"].split("\n", 1)[0]
 
 
 def ways(path):
-    """Scenes that name a file in every place where one may stand."""
+    """Return scenes that name a file in every possible place."""
     flat = {"vertices_m": [[0, 64], [100, 0]], "segments": GROUND}
     column = FIRST if path.name == "passwd" else "zugang" if path.name == "people.csv" else "znumber"
     table = {"csv": str(path)}
@@ -50,14 +50,14 @@ def ways(path):
 
 
 def words_of(text):
-    """What of a file may not be said: all words of it beyond the first 20 characters of its first line."""
+    """Return the secret words of a file: all beyond the first 20 characters of its first line."""
     first = text.split("\n", 1)[0][:20]
     words = "".join(c if c.isalnum() or c == "." else " " for c in text[len(first):]).split()
     return {word for word in words if len(word) > 3 and any(c in "qzQ47" for c in word) and word not in first}
 
 
 def check_silent(name, done, own=""):
-    """`own`: what the scene says of itself."""
+    """`own`: the scene's own words."""
     said, text = done.out + done.err, PRIVATE[name]
     expect(done.status != DONE, name, done)
     told = [word for word in words_of(text) if word in said and word not in own]
@@ -67,7 +67,7 @@ def check_silent(name, done, own=""):
 
 
 def test_private_files():
-    """Given as a scene, or named in one as slope, stand, base, draws or table of what was seen"""
+    """As a scene, or referenced as slope, stand, base, draws or table of observations"""
     with Folder() as f:
         for name, text in PRIVATE.items():
             path = f.write(name, text)
@@ -80,17 +80,17 @@ def test_private_files():
 
 
 def test_private_elsewhere():
-    """Given as a survey or a script"""
+    """As a survey or a script"""
     with Folder() as f:
         for name, text in PRIVATE.items():
             path = f.write(name, text)
-            script = f.write("script", text.lstrip("# only a comment\n"))  # which says the beginning of its first command
+            script = f.write("script", text.lstrip("# only a comment\n"))  # this shows the beginning of its first command
             for words in (("--survey", path), ("--script", script, "paper-site")):
                 check_silent(name, ceduo(*words), text.lstrip("# only a comment\n")[:20])
 
 
 def test_first_characters():
-    """What is shown is the beginning of the first line, and why there is no more; the place and what is wrong are told"""
+    """Shown: the beginning of the first line, and why no more; the place and the error are reported"""
     with Folder() as f:
         path = f.write("passwd", PRIVATE["passwd"])
         done = ceduo("--check", f.write("s.yaml", scene(slope={"csv": str(path)})))
@@ -114,7 +114,7 @@ def test_first_characters():
 
 
 def test_own_files_whole():
-    """A file that says that it is ceduo's is quoted whole, as is a table with a column that ceduo knows"""
+    """A file with a ceduo header is quoted fully, and so is a table with a known column"""
     wrong = " # " + "note " * 12
     with Folder() as f:
         for head in ("ceduo: stand/1", '"ceduo": "stand/1"', "# a wood\n\n'ceduo' :   stand/1", "ceduo: stand/2"):
@@ -135,7 +135,7 @@ def test_own_files_whole():
 
 
 def test_without_a_word_still_good():
-    """A slope or a stand that does not say what it is, and a table of one's own, are read as before"""
+    """A slope or stand without a header, and a user's table, are read as before"""
     with Folder() as f:
         f.write("line.yaml", {"vertices_m": [[0, 64], [100, 0]], "segments": GROUND})
         f.write("wood.yaml", stand())

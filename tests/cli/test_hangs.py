@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow
-"""Nothing hangs or takes all memory: scenes that are in order end, and a signal or a key ends the program whatever a rock is doing.
+"""No scene hangs or exhausts memory: valid scenes end, and a signal or a key ends the program at any time.
 
-How soon a signal takes effect is printed by tests/bench/bench_reaction.py; here only what hangs fails."""
+tests/bench/bench_reaction.py measures the delay; only a hang fails here."""
 import os
 import signal
 import subprocess
@@ -12,11 +12,11 @@ from harness import (CEDUO, DONE, INPUT, RUN, SANITIZED, SLOWER, Folder, Skip, c
                      expect_in, run_all, scene, stand)
 from long_scenes import LONG, Running, dense_trees, long_slope
 
-LATE = 1 * SLOWER  # seconds of processor: ten times what it takes
+LATE = 1 * SLOWER  # seconds of processor time: ten times the usual
 
 
 def test_too_many_stems():
-    """A rock with more than a million stems on its way is unfinished, and the page says so"""
+    """A rock that meets more than a million stems is unfinished, and the page says so"""
     with Folder() as f:
         path = f.write("long.yaml", long_slope(1e5, 1e5 - 1, 1e6))
         r = ceduo("--batch", "-f", "json", "-n", 3, path)
@@ -35,9 +35,9 @@ def test_too_many_stems():
 
 
 def test_wood_that_ends_before():
-    """A rock that meets somewhat fewer stems goes on to its end"""
+    """A rock that meets slightly fewer stems continues to its end"""
     with Folder() as f:
-        # 0.5 m of rock and 0.02 m of tree, 100 trees a square metre: 52 stems a metre, 936 000 in 18 km
+        # 0.5 m of rock and 0.02 m of tree, 100 trees per square metre: 52 stems per metre, 936 000 in 18 km
         path = f.write("long.yaml", long_slope(1e5, 18000, 1e6))
         r = ceduo("--batch", "-f", "json", "-n", 2, path)
         expect_equal(r.status, DONE, r)
@@ -47,7 +47,7 @@ def test_wood_that_ends_before():
 
 
 def test_spread():
-    """Diameters that spread by more than themselves are refused, with the reason"""
+    """Diameters with a spread above their mean are refused, with the reason"""
     for stems, where in (({"trees": [{"per_ha": 10, "dbh_m": 1e-9, "height_m": 9, "dbh_sd_m": 0.01}]}, "trees[0]"),
                          ({"shoots": [{"per_ha": 5000, "dbh_m": 0.05, "height_m": 6},
                                       {"per_ha": 5000, "dbh_m": 0.05, "height_m": 6, "dbh_sd_m": 0.0500001}]}, "shoots[1]")):
@@ -69,7 +69,7 @@ def test_spread():
 
 
 def test_other_sizes():
-    """The page of a splinter of a rock takes no longer than its JSON and a few seconds"""
+    """The page of a tiny splinter takes at most a few seconds more than its JSON"""
     for rock in ({"shape": "cylinder", "diameter_m": 1e-6, "height_m": 0.75}, {"shape": "block", "axes_m": [1e-6, 0.75, 0.75]}):
         with Folder() as f:
             path = f.write("s.yaml", scene(rock=rock, forest=[{"from_m": 0, "to_m": 90, "stand": stand()}]))
@@ -79,7 +79,7 @@ def test_other_sizes():
 
 
 def test_all_end():
-    """Each of the long scenes ends by itself, with few rocks"""
+    """Each of the long scenes ends, with few rocks"""
     for name, what in LONG.items():
         with Folder() as f:
             path = f.write("long.yaml", what)
@@ -102,27 +102,27 @@ def end_all(begin, end):
 
 
 def test_signal_json():
-    """SIGTERM ends a run of each long scene at once"""
+    """SIGTERM ends a run of each long scene quickly"""
     end_all(("--batch", "-f", "json", "-n", 10**6), lambda r: r.end_by_signal(signal.SIGTERM))
 
 
 def test_signal_picture():
-    """SIGINT ends a picture of each long scene at once"""
+    """SIGINT ends a picture of each long scene quickly"""
     end_all(("--plot", "profile", "-n", 10**6), lambda r: r.end_by_signal(signal.SIGINT))
 
 
 def test_signal_terminal():
-    """SIGTERM ends the terminal program at once, with each long scene"""
+    """SIGTERM ends the terminal program quickly, with each long scene"""
     end_all((), lambda r: r.end_by_signal(signal.SIGTERM))
 
 
 def test_key_terminal():
-    """q ends the terminal program at once, with each long scene"""
+    """q ends the terminal program quickly, with each long scene"""
     end_all((), lambda r: r.end_by_key("q"))
 
 
 def peak_memory(*arguments):
-    """MB that the program takes at the most."""
+    """Return the program's peak memory in MB."""
     process = subprocess.Popen([CEDUO, *map(str, arguments)], stdout=subprocess.DEVNULL, env=environment())
     _, status, used = os.wait4(process.pid, 0)
     process.returncode = status
@@ -131,10 +131,10 @@ def peak_memory(*arguments):
 
 
 def test_memory():
-    """What is kept of rocks takes no more than 50 bytes each"""
+    """Stored results use at most 50 bytes per rock"""
     if SANITIZED:
         raise Skip("a sanitizer has memory of its own")
-    # speed, height and energy at the control and the stops, 8 bytes each; while they are read 16 bytes to sort in
+    # speed, height and energy at the control and the stops, 8 bytes each; reading adds 16 bytes for sorting
     most = 60
     short = {"vertices_m": [[0, 4], [4, 0]], "segments": [{"rn": 0.3, "rt": 0.9}]}
     with Folder() as f:
@@ -144,7 +144,7 @@ def test_memory():
 
 
 def test_stepping():
-    """A rock whose way is too long to be shown is shown as far as it is known"""
+    """A trajectory too long to draw is drawn partly"""
     with Folder() as f:
         path = f.write("long.yaml", long_slope(1e5, 1e5 - 1, 1e6))
         script = f.write("keys", "resize 100 30\nkey 1 Tab Right Right\ndump -\n")

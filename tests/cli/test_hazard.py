@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""blocks: how often, and with how much. Closed forms on a free fall, weights against as many rocks as come down, parts, what is
-refused."""
+"""blocks: frequency and energy. Closed forms of a free fall, weights and natural frequencies, classes, errors."""
 import csv
 import io
 import json
@@ -17,14 +16,14 @@ from pages import WHOLE, expect_width
 
 DENSITY = 2600
 CLIFF = {"vertices_m": [[0, 100], [1, 0], [60, 0]], "segments": [{"rn": 0, "rt": 0}]}
-# out at 10 m/s, 2 s of free fall to x = 20: energy per kg
+# released at 10 m/s, 2 s of free fall to x = 20: energy per kg
 FALL = 9.81 * (9.81 * 2 ** 2 / 2) + 10 ** 2 / 2
 WOOD = {"from_m": 0, "to_m": 140, "stand": stand()}
 POWER = {"per_year": 4, "volume_m3": [0.01, 10], "exponent": 1.2}
 
 
 def falls(blocks, **changes):
-    """Every block goes through the control in free flight, with FALL per kg."""
+    """Every block passes the control in free flight, with FALL per kg."""
     return scene(**{"rock": {"diameter_m": 1, "density_kg_m3": DENSITY}, "blocks": blocks, "release": {"vx_m_s": 10},
                     "slope": CLIFF, "controls": [{"x_m": 20, "name": "road", "accepted_kJ": 500}], "forest": [],
                     "simulation": {"rocks": 65536}, **changes})
@@ -55,7 +54,7 @@ def hazard_of(result, side="bare", control=-1, option=0):
 
 
 def number_above(blocks, volume):
-    """Blocks a year that are larger, by the power law of a class."""
+    """Return the blocks per year above a size, by the power law of a class."""
     lo, hi = blocks["volume_m3"]
     b, v = blocks.get("exponent", 0), min(max(volume, lo), hi)
     if b == 0:
@@ -83,7 +82,7 @@ def check_power_law(classes, hazard):
 
 
 def test_curve_at_the_frame():
-    """The curve leaves its picture where it falls below once in 1000 years, between two energies of the table"""
+    """The curve leaves its picture at less than once in 1000 years, between two energies of the table"""
     with Folder() as f:
         path = f.write("s.yaml", falls(POWER))
         rows = hazard_of(good("--batch", "-f", "json", "--details", "-n", 2000, path).json()[0])["exceed_rate"]
@@ -97,13 +96,13 @@ def test_curve_at_the_frame():
     y30, y100, y300 = (float(y) for y in re.findall(r"M[\d.]+ ([\d.]+)L[\d.]+ \1(?![\d.])", rules))
     ends = [tuple(map(float, end)) for end in re.findall(r'd="M[^"]*L([\d.]+) ([\d.]+)"/>', picture)[:2]]
     expect(ax + 0.02 < energy < bx - 0.02 and y30 < y100 < y300, energy, ax, bx)
-    for x, y in ends:  # without forest and through none: the same
+    for x, y in ends:  # equal with and without forest
         expect_near((x - x30) / (x300 - x30) + math.log10(30), energy, 0.005)
         expect_near(y, y100 + (y300 - y30), 0.5)  # from 100 to 1000 years as from 30 to 300
 
 
 def test_power_law():
-    """In a free fall the curve is the power law of the sizes, whatever the exponent and the number of classes"""
+    """In a free fall the curve is the power law of the sizes, for any exponent and number of classes"""
     for classes in ([POWER], [{**POWER, "exponent": 0}], [{**POWER, "exponent": 0.5}, {"per_year": 0.02, "volume_m3": [20, 30]}],
                     [{"per_year": 0.2, "volume_m3": [1, 3]}, {"per_year": 7, "volume_m3": [0.02, 0.5], "exponent": 2}]):
         result = run(falls(classes[0] if len(classes) == 1 else classes))
@@ -112,7 +111,7 @@ def test_power_law():
 
 
 def test_effective_rocks():
-    """Of volumes whose logarithms are even, with weights v^-b: (mean of the weights)² / mean of their squares, and no forest changes it"""
+    """The effective number of log-uniform volumes with weights v^-b is (mean of weights)² / mean of squares, with any forest"""
     (lo, hi), b = POWER["volume_m3"], POWER["exponent"]
     length = math.log(hi / lo)
     mean, square = ((lo ** -k - hi ** -k) / (k * length) for k in (b, 2 * b))
@@ -122,7 +121,7 @@ def test_effective_rocks():
 
 
 def test_accepted_return():
-    """Without a return period 100 years are assumed, where an energy is accepted and blocks come down"""
+    """The default return period is 100 years, if an energy is accepted and blocks fall"""
     assumed = "a rock above the accepted energy may come once in 100 years"
     place = {"x_m": 20, "accepted_kJ": 500}
     said = [assumed in " ".join(page(falls(POWER, controls=controls)).split())
@@ -134,7 +133,7 @@ def test_accepted_return():
 
 
 def mean_volume(classes):
-    """Of the blocks of all classes together: the volume above which a share u of them is, at the middles of many equal shares"""
+    """Volume above which a share u of the blocks of all classes lies, at the centres of many equal shares"""
     shares = [(k + 0.5) / 200000 for k in range(200000)]
 
     def above(c, u):
@@ -145,7 +144,7 @@ def mean_volume(classes):
 
 
 def test_no_size():
-    """With blocks the rock needs no size: rates and energies are those of any size, and what is of one rock is of the mean block"""
+    """With blocks the rock needs no size: rates and energies do not depend on it, and single-rock figures use the mean block"""
     for classes in ([POWER], [{**POWER, "exponent": 0}, {"per_year": 0.02, "volume_m3": [20, 30], "exponent": 1}]):
         result = run(falls(classes, rock={"density_kg_m3": DENSITY}))
         check_power_law(classes, hazard_of(result))
@@ -167,7 +166,7 @@ def test_no_size():
 
 
 def test_no_size_in_all_modes():
-    """Page, report, uncertainty and search take a scene whose rocks have no size of their own; all dimensions equal is an assumption"""
+    """Page, report, uncertainty and search accept a scene without a rock size; equal dimensions are an assumption"""
     with Folder() as f:
         f.write("s.yaml", slope_site(rock={"shape": "block"}, simulation={"rocks": 100}))
         for words in (("--check",), ("--batch",), ("--report", "page.html"), ("--sensitivity=64", "-f", "json"),
@@ -181,7 +180,7 @@ def test_no_size_in_all_modes():
 
 
 def test_figures_agree():
-    """Matrix, accepted energy and shares say the same as the curve"""
+    """Matrix, accepted energy and shares agree with the curve"""
     result = run(falls(POWER))
     hazard, bare = hazard_of(result), result["options"][0]["controls"][0]["bare"]
     exact = rate_above([POWER], 500)
@@ -207,7 +206,7 @@ def test_figures_agree():
 
 
 def test_split():
-    """Two classes are one that is split in two, each with its share of the blocks"""
+    """Two classes equal one class that is split, each with its share of the blocks"""
     above = number_above(POWER, 0.5)
     two = [{**POWER, "volume_m3": [0.01, 0.5], "per_year": POWER["per_year"] - above},
            {**POWER, "volume_m3": [0.5, 10], "per_year": above}]
@@ -218,10 +217,10 @@ def test_split():
 
 
 def test_brute_force():
-    """Weights give the rates that blocks drawn as they come down give, with 20 times fewer rocks at 300 years"""
+    """Weights give the rates of naturally frequent blocks, with 20 times fewer rocks at 300 years"""
     site = slope_site(simulation={"rocks": 4000 if FULL else 1000, "seed": 5})
     weighted = hazard_of(run(site), "wooded")
-    # as they come down: classes so thin that all sizes within one are as likely, each its own run of as many rocks as it has
+    # natural frequencies: classes so thin that sizes within one are equally likely, each with its own run and number of rocks
     counts = {k["energy_kJ"]: 0 for k in weighted["exceed_rate"]}
     rocks, cells = (400000 if FULL else 40000), 24
     edges = [0.01 * 1000 ** (k / cells) for k in range(cells + 1)]
@@ -242,12 +241,12 @@ def test_brute_force():
     back = weighted["return"][3]
     exceed = [p for p in weighted["exceed_rate"] if p["energy_kJ"] <= back["energy_kJ"]][-1]
     relative = (exceed["hi"] - exceed["lo"]) / 3.92 / exceed["per_year"]
-    rocks_as_they_come = POWER["per_year"] / exceed["per_year"] / relative ** 2  # binomial, of a rare event
+    rocks_as_they_come = POWER["per_year"] / exceed["per_year"] / relative ** 2  # binomial, for a rare event
     expect(rocks_as_they_come > 20 * site["simulation"]["rocks"], "rocks for the same error", rocks_as_they_come)
 
 
 def test_curves():
-    """Curves only fall, lie within their intervals, and wood is nowhere above the bare slope by more than errors"""
+    """Curves only fall, lie within their intervals, and the forest's curve exceeds the bare slope's at most by errors"""
     result = run(slope_site())
     for control in range(2):
         bare, wooded = (hazard_of(result, side, control)["exceed_rate"] for side in ("bare", "wooded"))
@@ -264,7 +263,7 @@ def test_curves():
 
 
 def test_none():
-    """Without blocks there is no hazard; with index none through the wood; where nothing arrives the rates are 0"""
+    """Without blocks there is no hazard; with the index none with forest; without arrivals the rates are 0"""
     result = run(slope_site(blocks=None))
     expect_equal((hazard_of(result), hazard_of(result, "wooded")), (None, None))
     result = run(slope_site(simulation={"rocks": 50, "contact_model": "index"}))
@@ -279,7 +278,7 @@ def test_none():
 
 
 def test_same_bits():
-    """Threads, kernels and steps change no bit"""
+    """Threads, kernels and steps do not change a bit"""
     with Folder() as f:
         path = f.write("s.yaml", slope_site(simulation={"rocks": 5000}, options=[
             {"name": "a", "forest": []}, {"name": "b", "forest": [WOOD]}], forest=None))
@@ -291,7 +290,7 @@ def test_same_bits():
 
 
 def test_error_bars():
-    """The 95 % intervals hold what very many rocks give, of 60 seeds in 90 % at least"""
+    """The 95 % intervals contain the result of very many rocks for at least 90 % of 60 seeds"""
     site = slope_site(simulation={"rocks": 200})
     best = hazard_of(run(slope_site(), "-n", 60000), "wooded")
     held = {"accepted": 0, "return": 0}
@@ -305,7 +304,7 @@ def test_error_bars():
 
 
 def test_csv():
-    """CSV has the figures that are no curve, in columns of their own"""
+    """CSV has all figures except curves, in separate columns"""
     with Folder() as f:
         path = f.write("s.yaml", slope_site())
         row = list(csv.DictReader(io.StringIO(good("--batch", "-f", "csv", path).out)))[1]
@@ -319,7 +318,7 @@ def test_csv():
 
 
 def test_page():
-    """The page says how often in words, with the figures of JSON, and puts each option into the square"""
+    """The page gives the frequency in words, with the figures of JSON, and places each option in the matrix"""
     def shown(value):
         return f"{value:.{max(0, 1 - math.floor(math.log10(value)))}f}"
 
@@ -366,7 +365,7 @@ def test_page():
 
 
 def test_wide_figures():
-    """Figures of eight digits and their intervals leave a blank between them, in 80 columns"""
+    """Figures of eight digits and their intervals are separated by a blank, in 80 columns"""
     options = [{"name": name, "forest": [{**WOOD, "to_m": to}]} for name, to in (("half", 70), ("whole", 140), ("third", 50))]
     blocks = [{"per_year": 1, "volume_m3": [400, 80000], "exponent": 1}]
     rare = [{"per_year": 1e-7, "volume_m3": [0.5, 1], "exponent": 1}]
@@ -388,10 +387,10 @@ def test_wide_figures():
 
 
 def test_unknown_lower_end():
-    """An energy that as many rocks bring as just come down so often has 0 as its lower end on the page, null in JSON"""
+    """An energy exactly as rare as its return period has lower end 0 on the page, null in JSON"""
     seen = 0
     with Folder() as f:
-        for per_year in (0.0035, 0.004, 0.005, 0.006, 0.007, 0.008):  # through the wood comes about a half
+        for per_year in (0.0035, 0.004, 0.005, 0.006, 0.007, 0.008):  # about half arrives with forest
             path = f.write("s.yaml", slope_site(blocks={"per_year": per_year, "volume_m3": [0.1, 0.2], "exponent": 1}, controls=[{"x_m": 140}]))
             rows = re.findall(r"\n  (?:without forest|current)  .*", good(*WHOLE, "-n", 300, path).out)
             result = good("--batch", "-f", "json", "-n", 300, path).json()[0]
@@ -404,7 +403,7 @@ def test_unknown_lower_end():
 
 
 def test_many():
-    """More than two options are a table, in figures of JSON, and the one that keeps off most is named"""
+    """More than two options become a table with the figures of JSON, which names the most protective one"""
     def shown(value):
         return f"{value:.{max(0, 1 - math.floor(math.log10(value)))}f}"
 
@@ -440,8 +439,8 @@ def test_means():
 
 
 def test_design():
-    """Design values are the 95th percentiles times factors that are named; the model's is 1.02 only for a fitted ground; the height is
-    that of the block's top"""
+    """Design values are 95th percentiles times named factors; the model's is 1.02 only for a fitted ground; heights include the
+    top"""
     slope = {"vertices_m": [[0, 100], [150, 0], [200, 0]], "segments": [{"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25}]}
     fitted = {**slope, "segments": [{**slope["segments"][0], "source": {"kind": "calibrated", "text": "20 stops"}}]}
     with Folder() as f:
@@ -469,9 +468,9 @@ def test_design():
 
 
 def test_design_of_sizes():
-    """Blocks that roll are as high as they are large: uniform diameters of .3 to .7 m, and volumes by a power law, each in closed form"""
+    """Rolling blocks are as high as their size: uniform diameters of .3 to .7 m, and power-law volumes, each in closed form"""
     low, high, b = 0.02, 2, 1.1
-    volume = (0.05 * (low**-b - high**-b) + high**-b) ** (-1 / b)  # 5 of 100 are larger
+    volume = (0.05 * (low**-b - high**-b) + high**-b) ** (-1 / b)  # 5 in 100 are larger
     ways = (({"rock": {"diameter_m": {"mean": 0.5, "spread": 0.2, "kind": "uniform"}}}, 0.3 + 0.95 * 0.4),
             ({"rock": {"diameter_m": 0.5}, "blocks": {"per_year": 1, "volume_m3": [low, high], "exponent": b}}, (6 * volume / math.pi) ** (1 / 3)))
     for what, wanted in ways:
@@ -483,7 +482,7 @@ def test_design_of_sizes():
 
 
 def test_years():
-    """Over a rotation: rates are means of the years' rates, the error of the mean share holds what other seeds give"""
+    """Over a rotation rates are means of the years' rates, and the error of the mean share covers other seeds"""
     curve = {"dbh_most_m": 0.3, "dbh_rate_1_y": 0.03, "height_most_m": 20, "height_rate_1_y": 0.05}
     grown = stand(growth={"shoots": curve, "trees": curve}, cutting={"rotation_years": 12, "stay_per_ha": [100]})
     classes = [{"per_year": 0.4, "volume_m3": [0.05, 0.5], "exponent": 1}, {"per_year": 0.1, "volume_m3": [0.5, 2], "exponent": 1}]
@@ -503,7 +502,7 @@ def test_years():
 
 
 def test_histogram():
-    """The histogram of energies is that of the blocks that come down, not of the rocks that were drawn"""
+    """The histogram of energies has natural frequencies, not those of the drawn rocks"""
     with Folder() as f:
         path = f.write("s.yaml", falls(POWER, simulation={"rocks": 20000, "contact_model": "index"}))
         picture = good("--plot", "histogram", "--size", "100x30", "--charset", "ascii", path).out
@@ -513,7 +512,7 @@ def test_histogram():
 
 
 def test_plot():
-    """--plot hazard draws every option by its number; without blocks it says why not"""
+    """--plot hazard draws each option by its number; without blocks it gives the reason"""
     with Folder() as f:
         path = f.write("s.yaml", slope_site(forest=None, options=[{"name": "none", "forest": []},
                                                                   {"name": "coppice", "forest": [WOOD]}]))
@@ -531,7 +530,7 @@ def test_plot():
 
 
 def test_few_arrive():
-    """Where no rock or one arrives there is no mean or no error; -e goes on until all rocks are flown"""
+    """With no arrival or one there is no mean or no error; -e continues until all rocks are simulated"""
     far = slope_site(controls=[{"x_m": 199.5, "accepted_kJ": 1}], simulation={"rocks": 40},
                      slope={"vertices_m": [[0, 100], [150, 0], [200, 30]],
                             "segments": [{"rn": 0.1, "rt": 0.3, "roughness_rad": 0.25, "friction": 1}]})
@@ -545,7 +544,7 @@ def test_few_arrive():
 
 
 def test_tolerance_and_uncertainty():
-    """-e works with weights; uncertainty of the sizes moves the answer"""
+    """-e works with weights; uncertain sizes move the answer"""
     result = run(slope_site(), "-e", "0.05")
     for side in ("bare", "wooded"):
         energy = result["options"][0]["controls"][1][side]["energy_kJ"]
@@ -562,7 +561,7 @@ def test_tolerance_and_uncertainty():
 
 
 def test_refused():
-    """What is no list of sizes is refused, with its place"""
+    """An invalid list of sizes is refused, with its place"""
     cases = [({**POWER, "exponent": -1}, "blocks.exponent: -1 is below 0"),
              ({k: v for k, v in POWER.items() if k != "exponent"}, "blocks: 'exponent' is missing"),
              ({**POWER, "volume_m3": [2, 2]}, "blocks.volume_m3: 2 m3 is not below 2 m3; write the smaller volume first"),

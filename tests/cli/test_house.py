@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: quick uncounted
-"""The rooms of the house: who may know whom, what the library may reach for, what it exports."""
+"""The rooms of the source: allowed dependencies, outside functions of the library, and its exports."""
 import os
 import re
 import subprocess
@@ -12,20 +12,20 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / os.environ.get("BUILD", "build/release")
 
-# Each room knows itself and those named; base knows nobody.
+# Each room depends on itself and those named; base on nothing.
 KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene core", "io": "base scene core study",
          "view": "base scene core study io", "model": "base scene core study io",
          "tui": "base scene core study io view model", "cli": "base scene core study io view model tui"}
 # The folders of core likewise.
 CORE = {"stand": "", "wood": "stand", "walk": "stand wood", "runs": "stand wood walk"}
-# The room of each public header: a header knows what its room knows.
+# The room of each public header: a header depends on what its room may use.
 HEADERS = {"base": "flag", "scene": "rock scene slope stand status",
            "core": "adc assess blocks hazard key other pool question record result rotation run statistics trajectory variants years yield",
            "study": "calibrate uncertainty find naslund observe surface survey", "io": "ceduo read"}
-SCIENCE = ("scene", "core")  # reaches for nothing outside
+SCIENCE = ("scene", "core")  # uses nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
-# A rock is the same on every machine: what decides about its trajectory, and about the stand of a year, takes only what
-# rounds the same everywhere. A file is named by its room, in whichever folder of it; each energy law is one of them.
+# A rock is the same on every machine: code that decides its trajectory, or a year's stand, uses only functions
+# that round equally everywhere. A file is named by its room, in any of its folders; each energy law is one of them.
 TRAJECTORY = ("base/elementary", "scene/rock", "scene/slope", "scene/stand", "core/adc", "core/energy",
               "core/ground", "core/prepared", "core/rotation", "core/run_simulate", "core/stems", "core/trajectory",
               "core/walk", "core/lanes", "core/kernel", "core/kernel_avx2", "core/kernel_avx512", "core/wood")
@@ -42,7 +42,7 @@ def room_of(path):
 
 
 def includes(path):
-    """Files of the project that `path` includes, relative to ROOT."""
+    """Return the files of the project that `path` includes, relative to ROOT."""
     for name in re.findall(r'^#include "([^"]+)"', (ROOT / path).read_text(), re.M):
         beside, found = path.parent / name, None
         for candidate in (beside, Path("src") / name, Path("include") / name):
@@ -69,7 +69,7 @@ def who_knows_whom():
 
 
 def circles():
-    """A .c file and its header are one; no way leads from one along includes back to it."""
+    """A .c file and its header are one node; includes form no cycle."""
     knows = defaultdict(set)
     for path in sources():
         knows[path.with_suffix("")] |= {other.with_suffix("") for other in includes(path)} - {path.with_suffix("")}
@@ -92,7 +92,7 @@ def circles():
 
 
 def named_twice():
-    """Within a room its folders do not matter to who looks for a file."""
+    """Within a room a file name is unique, whatever its folder."""
     found = defaultdict(list)
     for path in sources():
         found[room_of(path), path.name].append(str(path))
@@ -137,13 +137,13 @@ def formatted_otherwise():
 
 
 def stands_otherwise():
-    """Lines of tests/changes.txt that do not stand once in their file: what is wrong in them is no longer tried."""
+    """Return the lines of tests/changes.txt that are not unique in their file: their change is no longer tried."""
     sys.path.insert(0, str(ROOT / "tests"))
     from changes import changes
     return [f"{name}: {old}" for name, old, _, _ in changes() if (ROOT / name).read_text(encoding="utf-8").count(old) != 1]
 
 
-# Lines of a function that hash or list something, and whether they may compile. The key of a run must not hold an address.
+# Lines of a function that hash or list something, and whether they may compile. The key of a run must not hash an address.
 COMPILES = """hash_count(&h, n);
 hash_count(&h, p);
 hash_count(&h, (void *)0);
@@ -185,7 +185,7 @@ def compiles_otherwise():
 
 
 def without_default():
-    """Structs of the headers that a caller fills, without a function that returns one."""
+    """Return structs of the headers that a caller fills, without a function that returns a default."""
     text = "".join(p.read_text(encoding="utf-8") for p in sorted((ROOT / "include/ceduo").glob("*.h")))
     structs = re.findall(r"^struct (ceduo_(?:\w+_def|request|input|observation)) {", text, re.M)
     return [name for name in structs if not re.search(rf"^struct {name} {name}_default\(", text, re.M)]
@@ -196,7 +196,7 @@ READS = re.compile(r"(->|\.)((released|reached|exceeded|unfinished|missed|transl
 
 
 def reads_arrivals():
-    """Above the rooms of the science two files alone read struct ceduo_arrivals: the others ask a measure."""
+    """Above the science rooms only two files read struct ceduo_arrivals: the others use a measure."""
     bad = []
     for path in sources():
         if room_of(path) in ("view", "tui", "cli") and path.name not in ("measure.c", "figures_result.c"):

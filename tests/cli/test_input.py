@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bad input: every fault is named with file, line, column, path and mend, its line shown with a caret below it."""
+"""Bad input: every error has file, line, column, path and remedy, and its line is shown with a caret."""
 import random
 import re
 import sys
@@ -27,7 +27,7 @@ def refused(name, old, new, *words):
 
 
 CASES = [
-    # (file, what is there, what stands there instead, words of the message); @@ is where the caret stands
+    # (file, original text, replacement, words of the message); @@ marks the caret
     ("scene.yaml", "release: {x_m", "release:\n@@\tx_m: 5\nextra: {x_m", "tab"),
     ("scene.yaml", "title: small", "title: @@*small", "an alias"),
     ("scene.yaml", "title: small", "title: @@&t small", "an anchor"),
@@ -202,7 +202,7 @@ CASES = [
 
 
 def test_good():
-    """The scene that the cases change is good itself"""
+    """The scene that the cases change is valid"""
     with Folder() as f:
         for name, text in FILES.items():
             f.write(name, text)
@@ -229,7 +229,7 @@ def test_message_whole():
 
 
 def test_same_fault_once():
-    """A fault in a file that two belts share is reported once"""
+    """An error in a file that two belts share is reported once"""
     files, _ = mutated("stand.yaml", "dbh_m: 0.07", "dbh_m: -0.07")
     with Folder() as f:
         for name, text in files.items():
@@ -240,7 +240,7 @@ def test_same_fault_once():
 
 
 def mutations(seed, count):
-    """Shipped files with a few bytes changed, put in, taken out, doubled or swapped."""
+    """Return shipped files with a few bytes changed, inserted, removed, doubled or swapped."""
     draw = random.Random(seed)
     files = sorted(PROFILES.rglob("*.yaml"))
     special = [b"\n", b" ", b":", b"-", b"[", b"]", b"{", b"}", b",", b"#", b"&a", b"*a", b"!", b"|", b">", b"'", b'"', b"%",
@@ -266,7 +266,7 @@ def mutations(seed, count):
 
 
 def test_random():
-    """500 random changes of the shipped files: status 0 or 3, no crash, no hang, every place right"""
+    """500 random changes of the shipped files: status 0 or 3, no crash, no hang, all places right"""
     with Folder() as f:
         profiles = f.profiles()
         refused_count = 0

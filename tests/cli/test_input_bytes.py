@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bad input by its bytes: line ends, what is no UTF-8, what is nested too deep, too large or empty."""
+"""Bad input at byte level: line ends, invalid UTF-8, deep nesting, large or empty files."""
 import sys
 from pathlib import Path
 
@@ -20,7 +20,7 @@ def bytes_refused(data, *words, place=None):
 
 
 def test_line_ends():
-    """CRLF, a byte order mark, no last line end: good; a fault behind them stands at the right place"""
+    """CRLF, a byte order mark, a missing last line end are valid; an error after them has the right place"""
     text = flat_scene()
     with Folder() as f:
         for data in (text, text.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + text, text.rstrip(b"\n"),
@@ -36,7 +36,7 @@ def test_line_ends():
 
 
 def test_unclosed():
-    """A bracket or quote that is never closed is shown with a line of the file and a caret"""
+    """An unclosed bracket or quote is shown with a line of the file and a caret"""
     for data in (b"rock: [", b"rock: {a: 1\n", b"title: 'small\n", b'title: "small', flat_scene() + b"more: {a: 1,\n\n"):
         done = bytes_refused(data)
         place = PLACE.match(done.err)
@@ -45,7 +45,7 @@ def test_unclosed():
 
 
 def test_nul():
-    """NUL and other control characters are refused where they stand"""
+    """NUL and other control characters are refused at their place"""
     for byte in (b"\0", b"\x01", b"\x1b", b"\x7f"):
         done = bytes_refused(flat_scene().replace(b"small", b"sm" + byte + b"all"), place=(2, 10))
         expect("control" in done.err or "NUL" in done.err, done)
@@ -54,7 +54,7 @@ def test_nul():
 
 
 def test_not_utf8():
-    """What is no UTF-8 is refused where it stands, also UTF-16 and Latin-1"""
+    """Invalid UTF-8 is refused at its place, also UTF-16 and Latin-1"""
     for bad in (b"\xff", b"\xc3", b"\xed\xa0\x80", b"\xf5\x80\x80\x80", b"\xc0\xaf", b"\xe4"):
         bytes_refused(flat_scene().replace(b"small", b"sm" + bad + b"all"), "UTF-8", place=(2, 10))
     bytes_refused(flat_scene().decode().encode("utf-16"), "UTF-8")
@@ -63,7 +63,7 @@ def test_not_utf8():
 
 
 def test_alias_bomb():
-    """A bomb of aliases is refused at once"""
+    """A bomb of aliases is refused quickly"""
     bomb = b"a: &a [x, x, x, x, x, x, x, x, x]\n"
     for before, name in zip("abcdefgh", "bcdefghi"):
         bomb += f"{name}: &{name} [{', '.join(['*' + before] * 9)}]\n".encode()
@@ -71,7 +71,7 @@ def test_alias_bomb():
 
 
 def test_nesting():
-    """100000 nested brackets, braces or dashes are refused at once, without a crash"""
+    """100000 nested brackets, braces or dashes are refused quickly, without a crash"""
     for data in (b"[" * 100000, b"title: " + b"[" * 100000 + b"]" * 100000, b"{a: " * 100000, b"- " * 100000, b"? " * 100000,
                  b"title: " + b"{" * 100000, b"\n".join(b" " * i + b"a:" for i in range(2000))):
         done = bytes_refused(data)
@@ -80,7 +80,7 @@ def test_nesting():
 
 
 def test_large():
-    """YAML over 16 MiB and CSV over 64 MiB are refused; just below they are read"""
+    """YAML over 16 MiB and CSV over 64 MiB are refused; slightly smaller files are read"""
     with Folder() as f:
         base = flat_scene()
         f.write("large.yaml", base + b"#" * ((16 << 20) + 1 - len(base)))
@@ -98,7 +98,7 @@ def test_large():
 
 
 def test_many_values():
-    """A list of 10^6 values and 10^5 keys are refused at once"""
+    """A list of 10^6 values and 10^5 keys are refused quickly"""
     with Folder() as f:
         f.write("list.yaml", b"title: [" + b"1, " * 1000000 + b"1]\n")
         expect_in("more than 250000 values", check(f, "list.yaml").err)
@@ -112,7 +112,7 @@ def test_many_values():
 
 
 def test_many_digits():
-    """A number of 400 digits that fits is read as it is"""
+    """A number of 400 digits in range is read exactly"""
     with Folder() as f:
         for word in ("0." + "5" * 400, "0.5" + "0" * 400, "5e-1", "+0.5", ".5", "0.5e0", "5" + "0" * 399 + "e-400"):
             path = f.write("s.yaml", flat_scene().decode().replace("diameter_m: 0.5", f"diameter_m: {word}"))
@@ -120,7 +120,7 @@ def test_many_digits():
 
 
 def test_empty():
-    """An empty file, blanks, a comment: said to hold nothing"""
+    """An empty file, blanks, a comment: reported as empty"""
     for data in (b"", b"\n\n", b"# nothing\n", b"---\n...\n", b"\xef\xbb\xbf"):
         done = bytes_refused(data)
         expect("s.yaml" in done.err and len(done.err.splitlines()) <= 3, done)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Slopes by CSV: what is read alike, and faults at their places."""
+"""Slopes in CSV: equal forms, and the places of errors."""
 import sys
 from pathlib import Path
 
@@ -16,7 +16,7 @@ def slope_numbers(folder, content):
 
 
 def test_csv_good():
-    """CSV slopes: QGIS' header, semicolons, tabs, quotes, more columns, CRLF, BOM, blank lines give one slope"""
+    """QGIS' header, semicolons, tabs, quotes, extra columns, CRLF, BOM, blank lines give one slope"""
     with Folder() as f:
         plain = "distance,elevation\n0,64\n50,30\n100,0\n"
         wanted = slope_numbers(f, plain)
@@ -31,7 +31,7 @@ def test_csv_good():
 
 
 def test_csv_of_spreadsheets():
-    """CSV as an Italian or German spreadsheet writes it: semicolons, decimal commas, their words; and that is said"""
+    """CSV of an Italian or German spreadsheet: semicolons, decimal commas, words of the language; the page reports it"""
     with Folder() as f:
         wanted = slope_numbers(f, "distance,elevation\n0,64.5\n50.25,30\n100,0.75\n")
         rows = "0;64,5\n50,25;30\n100;0,75\n"
@@ -46,7 +46,7 @@ def test_csv_of_spreadsheets():
 
 
 def test_csv_of_offices():
-    """Heads with units, a title above them, UTF-16 and Windows-1252, and a line drawn on the map give the same slope"""
+    """Heads with units, a title above them, UTF-16 and Windows-1252, and a line on the map give the same slope"""
     with Folder() as f:
         plain = "distance,elevation\n0,64.5\n50,30\n100,0.75\n"
         wanted = slope_numbers(f, plain)
@@ -61,7 +61,7 @@ def test_csv_of_offices():
             expect_equal(slope_numbers(f, text), wanted, repr(text))
 
 
-OTHER = [  # what a GPS or a drawing program writes, and how it is called
+OTHER = [  # files and column names of a GPS or a drawing program
     ('<?xml version="1.0"?>\n<gpx version="1.1"><trk><trkseg><trkpt lat="43" lon="12"/></trkseg></trk></gpx>\n', "GPX is not a profile"),
     ('<?xml version="1.0"?>\n<LandXML version="1.2"/>\n', "LandXML is not a profile"), ("<a/>\n", "XML is not a profile"),
     ("x,y,z\n12.1,43.1,300\n12.1001,43.1,200\n", "x and y must be in metres, not in degrees"),
@@ -76,7 +76,7 @@ OTHER = [  # what a GPS or a drawing program writes, and how it is called
 
 
 def test_no_table():
-    """What is no table is refused with the clicks that make one; degrees are told"""
+    """A file that is not a table is refused with the clicks that make one; degrees are reported"""
     with Folder() as f:
         for content, words in OTHER:
             for name in ("line.csv", "line.gpx", "line.XML"):

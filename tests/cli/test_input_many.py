@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many problems at once, each told once, and files that stand together: bases, options, materials."""
+"""Many problems in one file, each reported once, and files that refer to others: bases, options, materials."""
 import sys
 from pathlib import Path
 
@@ -28,7 +28,7 @@ def test_twenty():
 
 
 def test_kinds():
-    """Problems of one kind are told once, with the number and the lines of the others; other keys and words are other kinds"""
+    """Problems of one kind are reported once, with the number and lines of the others; other keys and words are other kinds"""
     rows = "".join(f"  - {{x_m: {x}, accepted_kJ: {a}}}\n" for x, a in
                    ((-1, 5), (-2, -5), (-3, -6), (-4, 7), (-5, "x"), (-6, 8), (-7, 9)))
     data = flat_scene().decode().replace("  - {x_m: 75, name: road, accepted_kJ: 50}\n  - {x_m: 90}\n", rows)
@@ -45,7 +45,7 @@ def test_kinds():
 
 
 def test_decimal_commas():
-    """A decimal comma is named, in brackets too, where it parts a number in two entries; what is no such number is not"""
+    """A decimal comma is reported, also if it splits a number into two list entries; other lists are not"""
     for text, words in (("rock: {diameter_m: 0,6, density_kg_m3: 2600}", "rock.diameter_m: decimal comma: write 0.6"),
                         ("rock: {density_kg_m3: 2600, diameter_m: 0,56}", "rock.diameter_m: decimal comma: write 0.56"),
                         ("rock: {diameter_m: 0,06}", "rock.diameter_m: decimal comma: write 0.06"),
@@ -67,17 +67,17 @@ def test_decimal_commas():
 
 
 def test_all_at_once():
-    """Several kinds of problem in one file are all reported in one go"""
+    """Several kinds of problem in one file are all reported together"""
     with Folder() as f:
         data = flat_scene().decode().replace("diameter_m: 0.5", "diameter_m: -0.5").replace("x_m: 90", "x: 90").replace(
             "vx_m_s: 1", "vx_m_s: fast")
         f.write("s.yaml", data)
         problems = expect_places(check(f, "s.yaml").err, {"s.yaml": data})
-        expect_equal([p[1] for p in problems], [3, 4, 8], str(problems))  # that x_m is missing follows from 'x'
+        expect_equal([p[1] for p in problems], [3, 4, 8], str(problems))  # the missing x_m follows from 'x'
 
 
 def told(text, *wanted, more=None):
-    """The problems of a scene: one for each of `wanted`, which stands in it, and none besides."""
+    """Expect one problem for each of `wanted`, which it contains, and no others."""
     with Folder() as f:
         for name, content in {"s.yaml": text, "slope.yaml": SLOPE, "stand.yaml": STAND, **(more or {})}.items():
             f.write(name, content)
@@ -93,7 +93,7 @@ HEAD = "ceduo: scene/1\nrock: {diameter_m: 0.5}\n" + GROUND
 
 
 def test_all_without_reference():
-    """A reference that leads nowhere is one problem; all the rest is still looked at"""
+    """A missing reference is one problem; all other parts are still checked"""
     told("ceduo: scene/1\nrock: {diameter_m: -1}\n" + GROUND + "controls: [{x_m: 900}, {x_m: a}]\nforest:\n"
          "  - {from_m: 10, to_m: 40, stand: nowhere}\n  - {from_m: 30, to_m: 70, stand: {base: nothing, shoots: [{per_ha: -7}]}}\n",
          "cannot find 'nowhere'", "cannot find 'nothing'",
@@ -107,7 +107,7 @@ def test_all_without_reference():
 
 
 def test_all_with_values():
-    """What does not fit together is told along with wrong and missing values, as far as its own values are good"""
+    """Inconsistent values are reported with wrong and missing values, if they are valid themselves"""
     told("ceduo: scene/1\n", "'rock' is missing", "'slope' is missing", "'controls' is missing")
     told("ceduo: scene/1\nrock: {shape: cube, height_m: 1}\nrelease: {x_m: b, height_m: -1}\n"
          "slope: {vertices_m: [[0, 64], [50], [40, 20], [30, 0]], segments: [{rn: 2, rt: 0.8}, {rn: 0.3}], "
@@ -133,7 +133,7 @@ def test_all_with_values():
 
 
 def test_all_but_what_follows():
-    """What only follows from another problem is not told"""
+    """Consequences of another problem are not reported"""
     told("ceduo: scene/1\nrock: {diametre_m: 0.5}\nslope: {vertices_m: 5, materials: 6}\ncontrol: [{x_m: 900}]\n"
          "forest: [{from_m: 10, to_m: 400, stand: {stools: 7, shoots: [{per_ha: 9, dbh_m: 1, height_m: 1}]}}]\n",
          "rock.diametre_m: unknown key", "slope.vertices_m: expected a list", "slope.materials: expected a list", "control: unknown key",
@@ -155,7 +155,7 @@ def stand_fault(body, *words, place=None, more=None):
 
 
 def test_base_loop():
-    """Stands that start from one another in a loop are refused"""
+    """Stands that are each other's base are refused"""
     stand_fault("ceduo: stand/1\nbase: stand.yaml\n", "loop", place="stand.yaml:2:7: ")
     stand_fault("ceduo: stand/1\nbase: other.yaml\n", "loop", more={"other.yaml": "ceduo: stand/1\nbase: stand.yaml\n"})
 
@@ -190,7 +190,7 @@ def test_base_merge():
 
 
 def test_base_place():
-    """A fault in a base is shown in the base's file, one in what is put over it in that file"""
+    """An error in a base is shown in the base's file, an error in an overriding value in its own file"""
     bad = STAND.replace("dbh_m: 0.07", "dbh_m: 0,07")
     with Folder() as f:
         for name, text in {**FILES, "stand.yaml": "ceduo: stand/1\nbase: old.yaml\n", "old.yaml": bad}.items():
@@ -203,7 +203,7 @@ def test_base_place():
 
 
 def test_options_bad():
-    """Options: names twice, no name, an empty list, a fault deep inside, each at its place"""
+    """Options: a repeated name, no name, an empty list, an error deep inside, each at its place"""
     head = flat_scene().decode()
     belt = "{from_m: 10, to_m: 20, stand: {trees: [{per_ha: 10, dbh_m: @, height_m: 9}]}}".replace("@", "0.2")
     for tail, line, words in (

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow
-"""What is no ordinary file: folders, devices, FIFOs, sockets, terminals; names with control characters."""
+"""Special files: folders, devices, FIFOs, sockets, terminals; names with control characters."""
 import os
 import pty
 import re
@@ -19,7 +19,7 @@ from inputs import check, flat_scene
 
 
 def test_no_file():
-    """Missing file, folder, loop of links, forbidden file: named, with the system's reason"""
+    """Missing file, folder, loop of links, unreadable file: reported, with the system's reason"""
     with Folder() as f:
         (f.path / "folder").mkdir()
         (f.path / "folder.yaml").mkdir()
@@ -35,7 +35,7 @@ def test_no_file():
 
 
 def test_no_file_below():
-    """The same for what a scene refers to, at the reference or in the file's name"""
+    """The same for references of a scene, at the reference or in the file's name"""
     with Folder() as f:
         (f.path / "folder.yaml").mkdir()
         (f.path / "loop.yaml").symlink_to("loop.yaml")
@@ -53,7 +53,7 @@ def expect_refused(done, name, words):
 
 
 def bounded():
-    """What reads without an end comes to the end of its memory, not of the machine's."""
+    """Run with a memory limit: an endless input must not exhaust the machine."""
     if not SANITIZED:
         resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
 
@@ -62,7 +62,7 @@ DEVICE = "a device or a socket; name a file\n"
 
 
 def test_no_files():
-    """Sockets and devices are refused by every reader; as standard input they are read up to what a file may hold"""
+    """Every reader refuses sockets and devices; as standard input they are read up to the size limit"""
     with Folder() as f, socket.socket(socket.AF_UNIX) as there:
         there.bind(str(f.path / "socket.yaml"))
         f.write("s.yaml", flat_scene())
@@ -80,17 +80,17 @@ def test_no_files():
 
 
 def test_no_size():
-    """A file of the system that says that it is empty is taken for empty: it may have no end"""
+    """A system file with size 0 counts as empty: it may be endless"""
     with Folder() as f:
         expect_in("/proc/self/status: there is no value", check(f, "/proc/self/status").err)
 
 
 def test_streams():
-    """A terminal or a socket as standard input, and /dev/stdin, are read to their end"""
+    """A terminal or a socket as standard input, and /dev/stdin, are read to the end"""
     text = flat_scene()
     master, slave = pty.openpty()
     with Folder() as f:
-        os.write(master, text + b"\x04")  # the key that ends it
+        os.write(master, text + b"\x04")  # the end-of-file key
         with open(os.ttyname(slave), "rb") as stream:
             done = subprocess.run([CEDUO, "--check", "-"], stdin=stream, capture_output=True, env=environment(),
                                   timeout=PATIENCE, check=False)
@@ -129,7 +129,7 @@ def test_fifo():
 
 
 def test_fifo_first():
-    """A FIFO is waited for whose writer comes a second later"""
+    """A FIFO without a writer is awaited for a second"""
     with Folder() as f:
         fifo = f.path / "fifo.yaml"
         os.mkfifo(fifo)
@@ -142,7 +142,7 @@ def test_fifo_first():
 
 
 def test_names_with_escapes():
-    """Control characters in names and titles never come out raw: table, CSV, JSON, messages, file names"""
+    """Control characters in names and titles are escaped: table, CSV, JSON, messages, file names"""
     nasty = "\\e[31mred\\a\\u009b2J\\u202eevil\\n\\t\\r\\ufdd0\\ufffe\\U0001ffff"
     text = flat_scene().decode().replace("title: small", f'title: "{nasty}"').replace("name: road", f'name: "{nasty}"')
     text += (f'options:\n  - name: "{nasty}"\n    source: {{kind: assumed, text: "{nasty}"}}\n    forest:\n'
@@ -151,7 +151,7 @@ def test_names_with_escapes():
     with Folder() as f:
         path = f.write("s.yaml", text)
         for form in ("table", "csv", "json"):
-            done = good("--batch", "-f", form, path)  # looks for them in both streams
+            done = good("--batch", "-f", form, path)  # checks both streams
             if form == "json":
                 title = done.json()[0]["title"]
                 expect_equal(title, "\x1b[31mred\a\x9b2J\u202eevil\n\t\r\ufdd0\ufffe\U0001ffff", ascii(title))
@@ -171,13 +171,13 @@ NASTY = "\x1b[31mred\a\x9b2J\u202eevil\nline\ufdd0\ufffe"
 
 
 def test_names_in_every_mode():
-    """Control characters in the names of files, options and arguments come out raw in no mode, on neither stream"""
+    """Control characters in the names of files, options and arguments are escaped in every mode, on both streams"""
     mapping = wooded_scene(title=NASTY, simulation={"rocks": 20})
     mapping["options"] = [{"name": NASTY, "forest": mapping.pop("forest")}]
     path = f"options[{NASTY}].forest[0].stand.stools.per_ha"
     with Folder() as f:
         def run(*words, status):
-            done = ceduo(*words, cwd=f.path, env={"XDG_DATA_HOME": str(f.path)})  # looks for them in both streams
+            done = ceduo(*words, cwd=f.path, env={"XDG_DATA_HOME": str(f.path)})  # checks both streams
             expect_equal(done.status, status, ascii(words))
             return done
 
@@ -210,7 +210,7 @@ def test_names_in_every_mode():
 
 
 def test_name_not_utf8():
-    """A file name that is no UTF-8 leaves JSON, CSV and table well-formed"""
+    """A file name in invalid UTF-8 leaves JSON, CSV and table well-formed"""
     with Folder() as f:
         name = os.fsencode(f.path) + b"/\xff\xfe.yaml"
         with open(name, "wb") as file:

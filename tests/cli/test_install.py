@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow
-"""Installing to a folder, using what was installed, taking it away again; completion in the shell."""
+"""Installing to a folder, using the installed program, uninstalling; completion in the shell."""
 import os
 import pty
 import re
@@ -43,7 +43,7 @@ class Installed(Folder):
 
 
 def test_install():
-    """make install: program, library, profiles, pages and completions, all below DESTDIR and PREFIX; uninstall leaves nothing"""
+    """make install: program, library, profiles, pages and completions, below DESTDIR and PREFIX; uninstall removes all"""
     with Installed() as place:
         files = place.files()
         expect(all(f.startswith("root/opt/forest/") for f in files), files)
@@ -55,7 +55,7 @@ def test_install():
         shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").rglob("*.[1357]")]
         shipped += [*(ROOT / "profiles/jobs").iterdir(), *(ROOT / "profiles/surveys").iterdir(), *(ROOT / "profiles/observed").iterdir(),
                     *(ROOT / "include/ceduo").glob("*.h"), *(ROOT / "src/po").glob("*.po")]
-        expect_equal(len(names), len(shipped) + 12, "files installed")  # the program, its libraries, the Italian pages and what completes
+        expect_equal(len(names), len(shipped) + 12, "files installed")  # with libraries, Italian pages and completions
         for name in names:
             expect_equal(oct((place.prefix / name).stat().st_mode & 0o777), "0o755" if name == "bin/ceduo" else "0o644", name)
         (place.prefix / "share/man/man1/other.1").write_text("not ours")
@@ -63,12 +63,12 @@ def test_install():
         expect_equal(place.files(), ["root/opt/forest/share/man/man1/other.1"], "left behind")
 
 
-# Where they are not in quotes a shell takes other paths for these, and make for the per cent.
+# Unquoted, a shell splits these paths, and make expands the per cent.
 ODD = (("root of it", "/opt/a forest"), ("it's", "/opt/oaks, 50% o'\"them\" & more; $(HASH)(*)"))
 
 
 def test_install_odd_names():
-    """make install and uninstall with blanks, quotes and other signs in PREFIX and DESTDIR: these folders and no others"""
+    """make install and uninstall with blanks, quotes and other characters in PREFIX and DESTDIR: exactly these folders"""
     with Installed() as plain:
         wanted = [f.removeprefix("root/opt/forest/") for f in plain.files()]
     for root, prefix in ODD:
@@ -85,7 +85,7 @@ def test_install_odd_names():
 
 
 def test_uninstall_foreign():
-    """make uninstall leaves what is not its own, also among its profiles, and goes twice"""
+    """make uninstall keeps foreign files, also among its profiles, and can run twice"""
     with Installed() as place:
         shared = place.prefix / "share/ceduo"
         mine = [place.write(shared / name, "mine") for name in ("notes.txt", "stands/mine.yaml", "jobs/old/a.sbatch")]
@@ -100,7 +100,7 @@ def test_uninstall_foreign():
 
 
 def copy_of_sources(to, *left_out):
-    """The sources with what was compiled of them, so that make has nothing to compile but what is left out."""
+    """Copy the sources with their objects, so that make compiles only omitted files."""
     for name in ("Makefile", "include", "src", "man", "profiles", "tests"):
         subprocess.run(["cp", "-a", ROOT / name, to / name], check=True)
     (to / f"build/{VARIANT}").mkdir(parents=True)
@@ -111,7 +111,7 @@ def copy_of_sources(to, *left_out):
 
 
 def test_odd_data_folder():
-    """DATADIR may hold what a C string or a shell would take for its own: profiles are found there"""
+    """DATADIR may contain special characters of C strings or shells: profiles are found there"""
     with Folder() as place:
         copy_of_sources(place.path, "src/io/file.o", "libceduo.a", "ceduo")
         data = place.path / "it's \"so\" a\\n % ??/ folder"
@@ -140,7 +140,7 @@ def test_installed_runs():
     """The installed program finds its profiles by name from any folder"""
     with Installed() as place:
         program = place.prefix / "bin/ceduo"
-        # what it was told when it was built is not below DESTDIR: a staged program looks beside itself
+        # DATADIR at build time is not below DESTDIR: a staged program searches next to itself
         done = subprocess.run([program, "--batch", "-n", "10", "-f", "csv", "paper-site"], cwd=place.path, env=environment(),
                               capture_output=True, text=True, check=False)
         expect(done.returncode == 0 and done.stdout.count("\n") == 2, "status and output", done)
@@ -150,7 +150,7 @@ def test_installed_runs():
 
 
 def completed(place, *words, **changes):
-    """What bash offers for the last of the words."""
+    """Return bash's completions of the last word."""
     script = (place.prefix / "share/bash-completion/completions/ceduo").read_text()
     line = " ".join(f"'{w}'" for w in words)
     run = f"{script}\nCOMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; _ceduo; printf '%s\\n' \"${{COMPREPLY[@]}}\""
@@ -160,7 +160,7 @@ def completed(place, *words, **changes):
     return done.stdout.splitlines()
 
 
-# What is typed before the Tab, and the word that the program is then given last.
+# Text before the Tab, and the last word that the program then receives.
 COMPLETIONS = (
     ("my", "my wood.yaml"), ("my\\ w", "my wood.yaml"), ('"my w', "my wood.yaml"), ("'my w", "my wood.yaml"),
     ("it\\'", "it's a wood.yaml"), ('"it\'s', "it's a wood.yaml"), ("quo", 'quo"ted".yaml'), ("back", "back\\slash.yaml"),
@@ -173,7 +173,7 @@ COMPLETIONS = (
 
 
 class Shells(Installed):
-    """The program installed, and a folder of files with odd names, which an interactive shell completes."""
+    """The program installed, and a folder of files with odd names, for completion in an interactive shell."""
 
     def __enter__(self):
         super().__enter__()
@@ -188,7 +188,7 @@ class Shells(Installed):
         return self
 
     def given(self, shell, start, typed):
-        """The last word that the program is given where this is typed, then Tab and Enter."""
+        """Return the last word that the program receives after typing this, Tab and Enter."""
         calls, here = self.path / "calls", self.path / "here"
         env = environment(HOME=str(here / "home"), XDG_DATA_HOME=str(self.path / "data"), TERM="dumb", CALLS=str(calls),
                           PATH=f"{self.path / 'a path'}:{os.environ['PATH']}", PS1="> ", ZDOTDIR=str(self.path))
@@ -220,7 +220,7 @@ class Shells(Installed):
 
 
 def test_bash_odd_names():
-    """bash completes names with blanks, quotes and other signs as one word, however they were begun, and carries out none"""
+    """bash completes names with blanks, quotes and other characters as one word, in any quoting, and executes none"""
     if not shutil.which("bash"):
         raise Skip("no bash here")
     with Shells() as place:
@@ -235,7 +235,7 @@ def test_zsh_odd_names():
         raise Skip("no zsh here")
     with Shells() as place:
         place.check(["zsh", "-f", "-i"], f"fpath=('{place.prefix}/share/zsh/site-functions' $fpath); autoload -Uz compinit; compinit -u -D",
-                    "old woods")  # zsh takes the slash back at Enter
+                    "old woods")  # zsh removes the slash at Enter
 
 
 def test_bash():
@@ -272,7 +272,7 @@ def test_bash():
 
 
 def test_zsh():
-    """zsh takes its completion without an error, with every option"""
+    """zsh loads its completion without an error, with every option"""
     if not shutil.which("zsh"):
         raise Skip("no zsh here")
     with Installed() as place:

@@ -14,7 +14,7 @@ MASS = math.pi / 6 * 2600  # kg, of a sphere of 1 m
 
 
 def test_json_shape():
-    """JSON of the paper's site has exactly the promised keys and types"""
+    """JSON of the paper's site has exactly the documented keys and types"""
     done = good("--batch", "-f", "json", PAPER)
     expect(done.out.count("\n") == 1 and done.out.endswith("\n"), "one line a scene", done)
     run = done.json()[0]
@@ -40,7 +40,7 @@ def test_json_shape():
 
 
 def test_json_shape_everywhere():
-    """JSON keeps its shape on every shipped scene, and without measured speed measured_kJ is null"""
+    """JSON keeps its shape for every shipped scene, and without measured speed measured_kJ is null"""
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
         for model in MODELS:
             run = result(path, "-n", 50, *through(model))
@@ -50,12 +50,12 @@ def test_json_shape_everywhere():
         expect_equal(len(run["options"]), 8)
         expect(all(c["index"]["measured_kJ"] is None for o in run["options"] for c in o["controls"]), "measured_kJ")
         expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (runs, 50 * runs), model)
-    run = result("blocks-above-the-road", "-n", 50)  # four options, each under two laws: those of the years are not counted with blocks, either
+    run = result("blocks-above-the-road", "-n", 50)  # four options, each under two laws; years are not counted with blocks
     expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (9, 50 * 9), "blocks")
 
 
 def test_json_numbers_shortest():
-    """JSON numbers are the shortest that read back"""
+    """JSON numbers are the shortest that read back equal"""
     text = good("--batch", "-f", "json", PAPER).out
     for word in re.findall(r"[:\[] (-?[0-9][^,}\]]*)", text):
         digits = len(re.sub(r"e.*|[^0-9]", "", word).strip("0"))
@@ -117,7 +117,7 @@ def test_golden_energy():
 
 
 def test_golden_residual():
-    """Residual energy beside the measured 62.337 kJ (Ciabocco, Boccia and Ripa 2009, Eq. 5)"""
+    """Residual energy, and the measured 62.337 kJ (Ciabocco, Boccia and Ripa 2009, Eq. 5)"""
     control = result(PAPER)["options"][0]["controls"][0]
     index, bare = control["index"], control["bare"]
     expect_near(index["measured_kJ"], 62.337, 5e-4, "measured_kJ")
@@ -143,7 +143,7 @@ def test_golden_reserves():
 
 
 def test_golden_speed():
-    """Mean speed without forest beside the paper's Table 5 (Ciabocco, Boccia and Ripa 2009), 10^5 rocks"""
+    """Mean speed without forest agrees with the paper's Table 5 (Ciabocco, Boccia and Ripa 2009), 10^5 rocks"""
     bare = result(PAPER, "-n", 100000, *through("index"))["options"][0]["controls"][0]["bare"]
     speed, energy = bare["speed_m_s"], bare["energy_kJ"]
     expect_near(speed["mean"], 20.612, 4 * math.hypot(speed["se"], 0.005), "mean speed")
@@ -154,7 +154,7 @@ def test_golden_speed():
 
 
 def test_golden_wooded():
-    """Energy, speed, share that passes and share stopped through the wood of the paper's site"""
+    """Energy, speed, shares of passing and of stopped rocks in the forest of the paper's site"""
     n = 20000
     option = result(PAPER, "-n", n)["options"][0]
     wooded = option["controls"][0]["wooded"]
@@ -166,7 +166,7 @@ def test_golden_wooded():
 
 
 def test_percentiles_in_closed_form():
-    """Rocks that leave a cliff at 8 to 12 m/s, uniform: each percentile lies as many ranks from its bounds as the binomial law has"""
+    """Rocks that leave a cliff at 8 to 12 m/s, uniform: each percentile is as many ranks from its bounds as in the binomial law"""
     n = 20000
     site = scene(rock={"diameter_m": 1}, release={"vx_m_s": {"mean": 10, "spread": 2, "kind": "uniform"}}, controls=[{"x_m": 20}], forest=[],
                  slope={"vertices_m": [[0, 100], [1, 0], [60, 0]], "segments": [{"rn": 0, "rt": 0}]})
@@ -175,7 +175,7 @@ def test_percentiles_in_closed_form():
     speed = bare["speed_m_s"]
 
     def below(v):
-        """The share of rocks that pass with less: the slower they leave the longer they have fallen."""
+        """Return the share of rocks that pass with less: a slower release falls longer."""
         lo, hi = 8.0, 12.0
         for _ in range(60):
             middle = (lo + hi) / 2
@@ -193,7 +193,7 @@ def test_percentiles_in_closed_form():
 
 
 def test_statistics():
-    """Intervals are Wilson's, percentiles rise, means over the released and over those that reached agree"""
+    """Intervals are Wilson's, percentiles ascend, means per released and per arriving rock agree"""
     for law in ("lumped", "crsp"):
         run = result(PAPER, "-s", f"simulation.law={law}", "-s", "controls[0].x_m=60")
         expect_run(run)

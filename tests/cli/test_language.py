@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: brief
-"""Text in the language of the locale or of --language; data the same in each."""
+"""Text in the language of the locale or of --language; equal data in each."""
 import csv
 import functools
 import json
@@ -21,7 +21,7 @@ ENGLISH, ITALIAN = "print this help", "stampa questo aiuto"
 
 
 def test_environment():
-    """LC_ALL, LC_MESSAGES, LANG and LANGUAGE choose as gettext does, though the locale is not installed"""
+    """LC_ALL, LC_MESSAGES, LANG and LANGUAGE choose as in gettext, also for a missing locale"""
     none = {"LC_ALL": None}
     for env, wanted in (({"LC_ALL": "it_IT.UTF-8"}, ITALIAN), ({"LC_ALL": "it_IT"}, ITALIAN), ({"LC_ALL": "it"}, ITALIAN),
                         ({**none, "LANG": "it_CH.utf8"}, ITALIAN), ({**none, "LC_MESSAGES": "it_IT.UTF-8"}, ITALIAN),
@@ -35,7 +35,7 @@ def test_environment():
 
 
 def test_option():
-    """--language goes before the environment, and an error after it is in its language; another word is refused"""
+    """--language overrides the environment, and later errors are in its language; an unknown word is refused"""
     for env in ("C", "C.UTF-8", "it_IT.UTF-8", "xx_YY"):
         expect_in(ITALIAN, good("--language", "it", "--help", env={"LC_ALL": env}).out, env)
         expect_in(ENGLISH, good("--help", "--language=en", env={"LC_ALL": env}).out, env)
@@ -43,7 +43,7 @@ def test_option():
 
 
 def test_without_translation():
-    """A program alone in a folder has no translation but the one that is installed: without that its text is English"""
+    """A program without its installation has only the installed translation: without it the text is English"""
     installed = re.search(rb"\0(/[^\0]*/locale)\0", Path(CEDUO).read_bytes())
     expect(installed, "no folder of an installation in the program")
     wanted = ITALIAN if Path(os.fsdecode(installed[1]), "it/LC_MESSAGES/ceduo.mo").exists() else ENGLISH
@@ -57,19 +57,19 @@ def test_without_translation():
 
 @functools.cache
 def shipped(*words):
-    """The same of a file that stays what it is."""
+    """Cached text of a file that never changes."""
     return both(*words)
 
 
 def both(*words):
-    """Output in English and in Italian."""
+    """Return output in English and in Italian."""
     return [good(*words, "--language", language).out for language in ("en", "it")]
 
 
 def test_whole():
-    """Every marked text of the sources has its Italian, none of it a guess, and formats agree: make po, then src/po/it.po"""
+    """Every marked text has a translation without guesses, and formats agree: make po, then src/po/it.po"""
     with Folder() as f:
-        # The template of this tree, whatever was built of it; made by the Makefile's own command.
+        # The template of this tree, whatever was built from it; made by the Makefile's own command.
         env = {k: v for k, v in environment().items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
         made = subprocess.run(["make", "-s", "-C", ROOT, f"TEMPLATE={f.path}/ceduo.pot", f"{f.path}/ceduo.pot"], env=env,
                               capture_output=True, text=True, check=False)
@@ -89,18 +89,18 @@ def test_whole():
 
 
 def glossary(name):
-    """The rows of a table beside the translations."""
+    """Return the rows of the glossary."""
     with open(ROOT / "src/po" / name, encoding="utf-8", newline="") as table:
         return list(csv.DictReader(table))
 
 
 def english(term):
-    """A term of the sources as a word, or its plural; the name of an option, a file or a key with dots is none."""
+    """Match a term of the sources as a word, or its plural; not in the name of an option, a file or a key with dots."""
     return re.compile(rf"(?<![\w.-]){term}(?:e?s)?(?!\w|[-._\[=]\w)", 0 if term.isupper() else re.IGNORECASE)
 
 
 def italian(words):
-    """Words as they are declined: all but the last vowel of each, and what follows; of short words, and with a dot, as they are."""
+    """Match inflected words: all but the last vowel of each, and any ending; short words, and words with a dot, exactly."""
     def stem(word):
         return word[:-2] if re.search("[cg]i[aeo]$", word) else word[:-1] if len(word) > 3 and word[-1] in "aeiou" else word
     return re.compile("|".join(r"\b" + r"\s+".join(re.escape(stem(word)) + r"\w*" for word in term.split())
@@ -108,14 +108,14 @@ def italian(words):
 
 
 def forbidden(words):
-    """Words in the singular and the plural."""
+    """Return words in singular and plural."""
     ends = {"o": "[oi]", "a": "[ae]", "e": "[ei]"}
     return re.compile("|".join(r"\b" + re.escape(word[:-1]) + ends.get(word[-1], re.escape(word[-1])) + r"\b"
                                for word in words.split("/")), re.IGNORECASE)
 
 
 def messages():
-    """The English of the program and the Italian, singular and plural by themselves."""
+    """Return the English of the program with its Italian, singular and plural separately."""
     done = subprocess.run(["msgattrib", "--no-obsolete", "--no-wrap", ROOT / "src/po/it.po"], capture_output=True, text=True,
                           check=True)
     found = []
@@ -134,24 +134,24 @@ def messages():
 
 
 def test_glossary():
-    """One Italian word for each term of src/po/glossary.csv, and no other; src/po/glossary-exceptions.csv says where not and why"""
+    """Each term of src/po/glossary.csv has one Italian word; src/po/glossary-exceptions.csv lists exceptions with reasons"""
     terms = glossary("glossary.csv")
     excepted = {(row["term"], row["message"].replace("\\n", "\n")): row["reason"] for row in glossary("glossary-exceptions.csv")}
     expect(len(terms) >= 60 and all(row["source"] for row in terms) and all(excepted.values()), terms, excepted)
     expect_equal(len({row["english"] for row in terms}), len(terms), "a term twice")
     texts, wrong, needed, used = messages(), [], set(), set()
     expect(len(texts) > 1500, len(texts))
-    # A longer term is looked for first, and is not there any more for a shorter one: standard deviation, standard.
+    # A longer term is matched first, and removed before a shorter one: standard deviation, standard.
     spelled = sorted(((one, row) for row in terms for one in row["english"].split("/")), key=lambda pair: -len(pair[0]))
     for source, translation in texts:
-        rest = re.sub(r"'[^'\s]*'", "''", source)  # what stands in quotes is a key or a name
+        rest = re.sub(r"'[^'\s]*'", "''", source)  # text in quotes is a key or a name
         for term, row in spelled:
             if not english(term).search(rest):
                 continue
             rest = english(term).sub("", rest)
             used.add(row["english"])
             never = forbidden(row["forbidden"]).search(translation) if row["forbidden"] else None
-            repeated = term not in row["forbidden"].split("/") and english(term).search(translation)  # a word of files or options
+            repeated = term not in row["forbidden"].split("/") and english(term).search(translation)  # a word of files
             if never or not (repeated or italian(row["italian"]).search(translation)):
                 if (row["english"], source) in excepted:
                     needed.add((row["english"], source))
@@ -167,12 +167,12 @@ NEVER = ("uncertainty", "fit", "FAILS", "free run", "growth", "large reserves", 
 
 
 def test_manual():
-    """ceduo(1), ceduo-terminal(7) and ceduo-workflows(7) are Italian to the last paragraph, with the words of the glossary"""
+    """ceduo(1), ceduo-terminal(7) and ceduo-workflows(7) are Italian throughout, with the words of the glossary"""
     terms = [row for row in glossary("glossary.csv") if row["english"] in NEVER]
     expect_equal(len(terms), len(NEVER))
     with Folder() as f:
         for page in ("ceduo.1", "ceduo-output.5", "ceduo-terminal.7", "ceduo-workflows.7"):
-            least = 90 if page == "ceduo-output.5" else 100  # what a sample prints changes more often than words
+            least = 90 if page == "ceduo-output.5" else 100  # a sample's output changes more often than words
             made = subprocess.run(["po4a-translate", "-f", "man", "-m", ROOT / "man" / page, "-M", "UTF-8", "-L", "UTF-8", "-k",
                                    str(least), "-p", ROOT / "src/po/man/it.po", "-l", f.path / page], env=environment(),
                                   capture_output=True, text=True, check=False)
@@ -194,15 +194,15 @@ def test_data():
 
 
 def test_pages():
-    """Pages, help and lists are Italian, no wider than in English, with the same numbers"""
+    """Pages, help and lists are Italian, at most as wide as in English, with the same numbers"""
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
-        uncertainty = () if path == PAPER else ("-s", "uncertainty=none")  # it takes most of the time
+        uncertainty = () if path == PAPER else ("-s", "uncertainty=none")  # most of the time
         for words in (("--batch", *uncertainty, "-n", 50, path), (*WHOLE, "-n", 50, path), (*WHOLE, "--years", "0:2", "-n", 20, path),
                       ("--batch", *uncertainty, "-n", 20, "-s", "simulation.contact_model=index", path)):
             english, italian = shipped(*words)
             expect_width(italian)
             expect(english != italian and "nplurals" not in italian, italian)
-            if words[1] != WHOLE[1]:  # how many remarks have room depends on their lengths
+            if words[1] != WHOLE[1]:  # the number of remarks that fit depends on their lengths
                 english, italian = (re.split("\n(?:ASSUMED|IPOTESI|NOTE|NOTA|MORE|ALTRO) ", page)[0] for page in (english, italian))
             italian = re.sub(r"(sezione|paragrafo|CRSP) (\d)\.(\d)", r"\1 \2,\3", italian)  # no numbers, but names
             if italian.count("kJ/100 m") != english.count("kJ/100 m"):  # a column that is left out where names are long
@@ -216,14 +216,14 @@ def test_pages():
 
 
 def assumed(page):
-    """What a page lists as assumed, without the places."""
+    """Return the assumptions listed on a page, without their places."""
     below = re.split(r"\n\* (?:Assumed, not measured|Ipotizzato, non misurato):\n", page)[1]
     items = re.findall(r"^  (\S.*(?:\n    \S.*)*)", below, re.M)
     return [re.sub(r" \([^()]*\)$", "", " ".join(item.split())) for item in items]
 
 
 def test_shipped():
-    """Titles and assumptions of all scenes and stands that come with the program are Italian; JSON has them as they are"""
+    """Titles and assumptions of all shipped scenes and stands are Italian; JSON keeps them unchanged"""
     with Folder() as f:
         stands = sorted((PROFILES / "stands").glob("*.yaml"))
         every = f.write("every.yaml", "ceduo: scene/1\ntitle: mine\nrock: {diameter_m: 0.5, source: {kind: assumed, text: made up here}}\n"
@@ -239,7 +239,7 @@ def test_shipped():
 
 
 def test_shipped_title():
-    """The report and the page of uncertainty have a shipped title in Italian; JSON has it as it is"""
+    """The report and the page of uncertainty have a shipped title in Italian; JSON keeps it unchanged"""
     titles = "Test site of Ciabocco et al. 2009", "Sito di prova di Ciabocco et al. 2009"
     with Folder() as f:
         good("--report", f.path / "r.html", "-s", "uncertainty=none", "-n", 10, "--language", "it", PAPER)
@@ -252,7 +252,7 @@ def test_shipped_title():
 
 
 def test_texts_of_files():
-    """A file says a text in both languages; one that is changed, or that stands over that of a base, loses the old Italian one"""
+    """A file has a text in both languages; a changed text, or one that overrides a base, drops the old Italian one"""
     title = "title: plain\ntitle_it: piano\n"
     source = "source: {kind: assumed, text: guessed, text_it: stimato}"
     with Folder() as f:
@@ -284,7 +284,7 @@ def test_pictures():
 
 
 def test_ascii():
-    """LC_ALL=C: Italian is pure ASCII, and nothing of it becomes a question mark"""
+    """LC_ALL=C: Italian is pure ASCII, without question marks"""
     for words in (("--batch", "-n", 50, PAPER), ("--help",), ("--list-parameters",)):
         text = good(*words, "--language", "it", env={"LC_ALL": "C"}).out
         expect(text.isascii(), "not ASCII", *[line for line in text.splitlines() if not line.isascii()][:4])

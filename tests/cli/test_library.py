@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: uncounted
-"""ceduo(3): the example of the page is compiled and run with the library and the headers that were installed."""
+"""ceduo(3): the example of the page compiles and runs with the installed library and headers."""
 import json
 import os
 import re
@@ -17,14 +17,14 @@ PAGE = ROOT / "man/ceduo.3"
 SOURCE, COMMANDS, OUTPUT, STATIC = [plain(body) for _, body in RUN.findall(PAGE.read_text(encoding="utf-8"))]
 CC = os.environ.get("CC", "cc")
 STRICT = "-std=c17 -Wall -Wextra -Wpedantic -Wconversion -Werror"
-# What a program needs beside ceduo.pc when the library is not the one that is released.
+# Further needs of a program, besides ceduo.pc, with a special build of the library.
 BUILT = {"asan": "-fsanitize=address,undefined", "tsan": "-fsanitize=thread"}.get(VARIANT, "")
-# Blanks and signs of the shell, of make and of pkg-config, all of which a user may have in the name of a folder.
+# Blanks and special characters of the shell, make and pkg-config, all possible in a folder's name.
 ODD = "it's a \"wood\" & 50% \\more; `x` $y #1"
 
 
 class Library(Folder):
-    """The library installed with a PREFIX: below DESTDIR, or, where its folder is named, in that itself."""
+    """The library installed with a PREFIX: below DESTDIR, or in a named folder itself."""
 
     def __init__(self, folder=None):
         self.folder = folder
@@ -52,7 +52,7 @@ class Library(Folder):
 
 
 def test_example():
-    """The example compiles without a warning by the commands of the page, shared and static, and prints what the page says"""
+    """The example compiles without a warning by the commands of the page, shared and static, and prints the page's output"""
     with Library() as place:
         place.write("stools.c", SOURCE)
         expect(COMMANDS.startswith("cc ") and STATIC.startswith("cc -static "), COMMANDS, STATIC)
@@ -110,8 +110,7 @@ int main()
 
 
 def test_cpp():
-    """C++ asks as C does, shared and static: one header, without a warning, a flag that ends the call, the program's messages, and
-    what --sensitivity says"""
+    """A C++ program, shared and static: one header, no warning, a cancelling flag, the program's messages, and --sensitivity"""
     if not shutil.which("g++"):
         raise Skip("no C++ compiler here")
     with Library() as place:
@@ -131,7 +130,7 @@ def test_cpp():
 
 
 def test_exports():
-    """The shared library has its name, and exports what the headers declare and nothing else"""
+    """The shared library has its name, and exports exactly the declarations of the headers"""
     with Library() as place:
         lines = place.shell(f"nm -D --defined-only {shlex.quote(place.root)}/lib/libceduo.so").splitlines()
         names = {line.split()[-1] for line in lines}
@@ -144,14 +143,14 @@ def test_exports():
 
 
 def test_version():
-    """pkg-config knows the version of the library"""
+    """pkg-config reports the version of the library"""
     with Library() as place:
         wanted = re.search(r'CEDUO_VERSION "(.*)"', (ROOT / "include/ceduo/status.h").read_text())[1]
         expect_equal(place.flags("--modversion"), [wanted])
 
 
 def test_odd_folder():
-    """The library may be installed in a folder with blanks and signs: pkg-config names it, the example compiles"""
+    """The library may be installed in a folder with special characters: pkg-config names it, the example compiles"""
     with Library(ODD) as place:
         flags = place.flags("--cflags", "--libs")
         expect_equal(flags[:3], [f"-I{place.root}/include", f"-L{place.root}/lib", "-lceduo"])
@@ -159,12 +158,12 @@ def test_odd_folder():
         done = subprocess.run([*CC.split(), *BUILT.split(), "-o", place.path / "stools", source, *flags], capture_output=True, text=True,
                               check=False)
         expect_equal((done.returncode, done.stderr), (0, ""), "compiler")
-        # the loader takes a semicolon for the end of a folder's name
+        # the loader splits folders at a semicolon
         expect_equal(place.shell(f"cp {shlex.quote(place.root)}/lib/libceduo.so.0 .\nLD_LIBRARY_PATH=$PWD ./stools"), OUTPUT, "output")
 
 
 def test_headers():
-    """Each installed header stands by itself"""
+    """Each installed header compiles alone"""
     with Library() as place:
         names = sorted(p.name for p in (ROOT / "include/ceduo").glob("*.h"))
         for name in names:

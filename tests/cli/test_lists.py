@@ -45,7 +45,7 @@ def test_list_parameters():
 
 
 def test_list_columns():
-    """--list-columns names the columns that CSV has, in their order, each with type and meaning"""
+    """--list-columns has the columns of CSV, in order, each with type and meaning"""
     for words in ((), ("--rows", "stands"), ("--years", "0:1")):
         head = good("-b", "-f", "csv", "-n", 1, *words, PAPER).out.split("\n")[0].split(",")
         rows = [re.split("  +", line) for line in good("--list-columns", *(words[:1] if "--years" in words else words)).out.splitlines()]
@@ -56,7 +56,7 @@ def test_list_columns():
 
 
 def test_schema():
-    """--schema: a JSON Schema of each output, which an answer keeps and a wrong one does not; --each adds to it"""
+    """--schema: a JSON Schema of each output, which accepts answers and refuses a wrong one; --each extends it"""
     for name in ("result", "find", "sensitivity", "calibration"):
         schema = json.loads(good("--schema", name).out)
         validator().check_schema(schema)
@@ -86,7 +86,7 @@ ACT = {"article": "a", "year": 2000}
 
 
 def test_bounds_are_listed():
-    """What is beyond the bounds that --list-parameters shows is refused with these bounds, and no other bound is met"""
+    """Values beyond the bounds of --list-parameters are refused with these bounds, and there are no other bounds"""
     mapping = scene(forest=[{"from_m": 10, "to_m": 20, "stand": stand(
         growth={**GROWTH, "shoots_young": 3, "shoots_old": 2}, cutting={"rotation_years": 20})}], minimum={"reserves_per_ha": 1},
         rules={"name": "r", "standards": [{"per_ha": 1, "most_per_ha": 9, **ACT}], "turns": [{"least_y": 1, "most_y": 9, **ACT}]})
@@ -101,7 +101,7 @@ def test_bounds_are_listed():
         sized = f.write("b.yaml", scene(blocks=[{"per_year": 1, "volume_m3": [0.1, 1]}]))
         places = f.write("p.yaml", {key: value for key, value in mapping.items() if key != "controls"} | {"controls_m": [50]})
         for name, kind, unit, text, *_ in lines:
-            # bounds of a range as of the value in doubt; those of what was seen: test_observed.py
+            # bounds of a range equal those of its value; test_observed.py tests observations
             if kind not in forms or "uncertainty[]" in name or name.startswith("observed[]"):
                 continue
             seen += 1
@@ -122,7 +122,7 @@ def test_bounds_are_listed():
 
 
 def test_list_profiles():
-    """--list-profiles shows what to type, kind, title and file; one's own come from the XDG data folder and run by name"""
+    """--list-profiles has name, kind, title and file; a user's own come from the XDG data folder and run by name"""
     text = good("--list-profiles").out
     expect_equal(text.split("\n")[0].split(), ["name", "kind", "title", "file"])
     for name, kind, title in (("paper-site", "scene", "Test site of Ciabocco et al. 2009"), ("ads-1", "stand", "ADS 1"),
@@ -145,7 +145,7 @@ def test_list_profiles():
 
 
 def test_check_good():
-    """--check of the shipped scenes prints nothing but one line for each table, status 0"""
+    """--check of the shipped scenes prints only one line per table, status 0"""
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
         lines = good("--check", path).out.splitlines()
         expect_equal([line for line in lines if not re.match(r"(quarry-stops|tschamut-2014|tschamut-2014-profile)\.csv: [0-9]+ (values|points)", line)], [])

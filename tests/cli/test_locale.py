@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: brief
-"""No locale and no terminal of the environment changes a number."""
+"""No locale and no terminal setting changes a number."""
 import os
 import re
 import shutil
@@ -15,17 +15,17 @@ from pages import WHOLE, expect_width
 from runs import FOUR, PAPER, without_seconds
 
 
-PAGE = ("--batch", "-s", "uncertainty=none")  # what is not known takes most of the time of a page; test_short.py has it in ASCII
+PAGE = ("--batch", "-s", "uncertainty=none")  # uncertainty takes most of a page's time; test_short.py has it in ASCII
 MEAN = re.compile(r"(\S*[\d-]) ?(?:\+-|\u00b1) ?(\S+)")
 
 
 def expect_same_means(*pages):
-    """A mean has as many digits as its column has room for, and "+-" takes a column more than its sign: each pair of numbers
-    on one page is that on the other, but for its last digit. A line may end between a mean and its error."""
+    """A mean has the digits that fit its column, and "+-" is a column wider than its character: number pairs of both pages
+    agree except for the last digit. A line may end between a mean and its error."""
     pairs = [[number for pair in MEAN.findall(" ".join(page.split())) for number in pair] for page in pages]
     expect_equal(*(len(p) for p in pairs), "numbers beside an error")
     for one, other in zip(*pairs):
-        if one == other == "-":  # of so few rocks there is no error
+        if one == other == "-":  # so few rocks give no error
             continue
         numbers = [re.fullmatch(r"[(>]?([+-]?\d+(?:\.(\d+))?)[,.;:)]*", n) for n in (one, other)]
         expect(all(numbers), "no number with a dot:", one, other)
@@ -34,7 +34,7 @@ def expect_same_means(*pages):
 
 
 def test_plain_ascii():
-    """LC_ALL=C: all output and every message is pure ASCII, with the same numbers"""
+    """LC_ALL=C: all output and messages are pure ASCII, with the same numbers"""
     def ascii_only(done):
         for data in (done.out_bytes, done.err_bytes):
             bad = [line for line in data.splitlines() if any(b >= 0x80 for b in line)]
@@ -63,7 +63,7 @@ def test_plain_ascii_lists():
 
 
 def comma_locale(folder, name):
-    """Environment of a locale that writes a comma; made here, so that it is the same on every machine."""
+    """Return the environment of a locale with a decimal comma; made here, so that it is equal on all machines."""
     if not shutil.which("localedef") or not Path("/usr/share/i18n/locales", name).exists():
         raise Skip("no localedef to make a locale with a comma")
     subprocess.run(["localedef", "-i", name, "-f", "UTF-8", str(folder / f"{name}.UTF-8")], capture_output=True, check=False)
@@ -74,9 +74,9 @@ def comma_locale(folder, name):
 
 
 def test_comma_locale():
-    """A locale with a decimal comma, of whatever language: numbers are read and written with a dot"""
+    """A locale with a decimal comma, in any language: numbers are read and written with a dot"""
     with Folder() as f:
-        for name in ("de_DE", "it_IT") if FULL else ("it_IT",):  # to make one takes most of the time
+        for name in ("de_DE", "it_IT") if FULL else ("it_IT",):  # compiling one takes most of the time
             env = comma_locale(f.path, name)
             for words in (*((*PAGE, "-f", form, PAPER, "-s", "rock.diameter_m=0.75") for form in ("table", "csv", "json")),
                           ("--list-parameters",)):

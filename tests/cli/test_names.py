@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names that could mean several things: refused and said, or taken by a fixed order."""
+"""Ambiguous names: refused, or resolved by a fixed order."""
 import json
 import os
 import sys
@@ -20,7 +20,7 @@ def refused(path, change, *words):
 
 
 def test_two_of_a_name():
-    """-s refuses a name that just two items have, whichever they are, with its place in what was typed"""
+    """-s refuses a name of exactly two items, anywhere, with its place in the typed text"""
     with Folder() as f:
         belts = [belt(x, x + 9, name=n) for x, n in ((10, "a"), (20, "b"), (30, "b"), (40, "c"), (50, "a"))]
         path = f.write("s.yaml", scene(forest=belts, controls=[{"x_m": 70, "name": "road"}, {"x_m": 80, "name": "road"},
@@ -31,14 +31,14 @@ def test_two_of_a_name():
         refused(path, "controls[road].x_m=65", f"'road': {TWICE}[0], [1]\n")
         for change in ("forest[c].to_m=48", "forest[0].to_m=18", "controls[track].x_m=76", "controls[1].x_m=81"):
             good("--check", "-s", change, path)
-        # made two by a change before, or one again
+        # two made by an earlier change, or one again
         done = ceduo("--check", "-s", "forest[3].stand.name=d", "-s", "forest[1].stand.name=d", "-s", "forest[d].to_m=1", path)
         expect(done.status == USAGE and f"'d': {TWICE}[1], [3]\n" in done.err, done)
         good("--check", "-s", "forest[4].stand.name=d", "-s", "forest[a].to_m=18", path)
 
 
 def test_names_of_files():
-    """A belt has the name of its stand's file, or what the scene puts over that: two of them are refused too"""
+    """A belt has the name of its stand's file, or the scene's name for it: two equal ones are refused too"""
     with Folder() as f:
         f.write("stand.yaml", stand(ceduo="stand/1", name="wood"))
         belts = [{"from_m": x, "to_m": x + 9, "stand": s} for x, s in (
@@ -50,7 +50,7 @@ def test_names_of_files():
 
 
 def test_items_without_names():
-    """Stems, segments and vertices have no names: only a place leads to them"""
+    """Stems, segments and vertices have no names, only indices"""
     with Folder() as f:
         path = f.write("s.yaml", scene(forest=[belt(10, 60, name="a")]))
         for change in ("forest[a].stand.trees[a].per_ha=5", "forest[0].stand.shoots[coppice].per_ha=5000",
@@ -60,7 +60,7 @@ def test_items_without_names():
 
 
 def test_options_of_a_name():
-    """Options of one name are bad input; a change may mend them by place, but not by that name"""
+    """Options with equal names are bad input; a change may repair them by index, but not by that name"""
     with Folder() as f:
         path = f.write("s.yaml", scene(options=[{"name": n, "forest": []} for n in ("a", "b", "a")]))
         done = ceduo("--check", path)
@@ -73,7 +73,7 @@ def test_options_of_a_name():
 
 
 def test_names_with_signs():
-    """A name in brackets may hold dots, an equals sign and an opening bracket; digits are a place"""
+    """A name in brackets may contain dots, an equals sign and an opening bracket; digits are an index"""
     with Folder() as f:
         names = ["a=b", "1.5 m", "x[y", "7", "0"]
         path = f.write("s.yaml", scene(options=[{"name": n, "forest": [belt(10, 60)]} for n in names]))
@@ -86,7 +86,7 @@ def test_names_with_signs():
 
 
 def test_name_with_a_number_sign():
-    """A '#' in a name begins no comment: in a path of -s, of --find, of a row of a table and of what is not known"""
+    """A '#' in a name begins no comment: in a path of -s, of --find, of a row of a table and of uncertainty"""
     name = "road #2"
     with Folder() as f:
         place = f"controls[{name}].accepted_kJ"
@@ -105,7 +105,7 @@ def test_name_with_a_number_sign():
 
 
 def test_file_that_is_no_utf8():
-    """JSON is UTF-8 whatever the name of a file: what is none becomes U+FFFD"""
+    """JSON is UTF-8 for any file name: invalid bytes become U+FFFD"""
     with Folder() as f:
         plain = f.write("s.yaml", scene(uncertainty=[{"path": "rock.density_kg_m3", "lo": 2500, "hi": 2700}]))
         odd = os.fsencode(f.path) + b"/x\xff\xed\xa0\xbd.yaml"
@@ -117,7 +117,7 @@ def test_file_that_is_no_utf8():
 
 
 def test_find_by_name():
-    """--find takes one item by its name, and refuses a name that two have"""
+    """--find accepts an item by its name, and refuses a name of two"""
     with Folder() as f:
         path = f.write("s.yaml", scene(forest=[belt(10, 20, name="a"), belt(20, 30, name="b"), belt(30, 40, name="a")]))
         goal = ("--goal", "adc=30", "-n", 1)
@@ -127,7 +127,7 @@ def test_find_by_name():
 
 
 def test_option_doubled():
-    """--option twice with one name asks for it once; a name more that is not there is refused whatever else is"""
+    """--option twice with one name counts once; an unknown name is refused with any others"""
     with Folder() as f:
         path = f.write("s.yaml", scene(options=[{"name": n, "forest": [belt(10, 60)]} for n in ("a", "b", "c")]))
         def names(*wanted):
@@ -147,7 +147,7 @@ def test_option_doubled():
 
 
 def test_profiles_in_several_places():
-    """Of profiles of one name the first is taken: beside the scene, the user's own, the program's"""
+    """Of profiles with equal names the first one wins: next to the scene, the user's own, the program's"""
     with Folder() as f:
         f.write("scenes/s.yaml", scene(forest=[{"from_m": 10, "to_m": 20, "stand": "ads-1.yaml"},
                                                {"from_m": 30, "to_m": 40, "stand": "ads-1"},
@@ -158,12 +158,12 @@ def test_profiles_in_several_places():
         def put(name, title):
             f.write(name, stand(ceduo="stand/1", name=title))
         expect_equal(taken(), ["ADS 1"] * 3, "the program's")
-        put("ads-1.yaml", "in the current folder")  # of no scene's
+        put("ads-1.yaml", "in the current folder")  # not of a scene
         put("data/stands/ads-1.yaml", "in the folder above the own profiles")
         expect_equal(taken(), ["ADS 1"] * 3, "not profiles")
         put("data/ceduo/stands/ads-1.yaml", "own")
         expect_equal(taken(), ["own"] * 3)
-        put("data/ceduo/ads-1.yaml", "own, of no kind")  # the very path comes before the folder of its kind
+        put("data/ceduo/ads-1.yaml", "own, of no kind")  # the exact path precedes the folder of its kind
         expect_equal(taken(), ["own, of no kind", "own", "own"])
         put("data/ceduo/stands/ads-1", "own, without .yaml")
         expect_equal(taken(), ["own, of no kind", "own, without .yaml", "own"])
@@ -176,7 +176,7 @@ def test_profiles_in_several_places():
 
 
 def test_scenes_in_several_places():
-    """A scene on the command line is the file of the current folder, the user's own, the program's"""
+    """A scene on the command line is the file of the current folder, the user's own, or the program's"""
     with Folder() as f:
         def title():
             return result("paper-site", "-n", 1, cwd=f.path, env={"XDG_DATA_HOME": str(f.path / "data")})["title"]
@@ -190,7 +190,7 @@ def test_scenes_in_several_places():
 
 
 def test_files_of_changes():
-    """A file that -s names is looked for as if the scene named it, and then in the current folder: stands, slopes, profiles"""
+    """A file that -s names is searched from the scene, then from the current folder: stands, slopes, profiles"""
     with Folder() as f:
         path = f.write("scenes/s.yaml", scene(forest=[belt(10, 60)]))
         here = f.path / "here"

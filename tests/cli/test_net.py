@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The net (make net): it names the one case in which two programs differ, and none where they do not."""
+"""make net: it reports exactly the cases in which two programs differ."""
 import os
 import re
 import shutil
@@ -11,7 +11,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import CEDUO, PATIENCE, PROFILES, ROOT, Folder, Skip, expect, expect_equal, expect_in, run_all  # noqa: E402
 
-# A program that answers at once. It writes what a script dumps.
+# A program that answers quickly. It writes the dumps of a script.
 FAKE = """\
 #!/bin/sh
 case "$*" in
@@ -24,7 +24,7 @@ esac
 
 
 def net(*words, tree=ROOT, **env):
-    """Status and what is printed, both streams one after the other."""
+    """Return the status and the output of both streams in sequence."""
     done = subprocess.run([sys.executable, tree / "tests/net.py", *map(str, words)], stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, **env}, timeout=PATIENCE, check=False)
     return done.returncode, (done.stdout + done.stderr).decode()
@@ -41,7 +41,7 @@ def program(folder, name, text):
 
 
 def changed(only, *changes):
-    """The fake program against one in which some words are others."""
+    """Compare the fake program with one that has other words."""
     text = FAKE
     for old, new in changes:
         expect_equal(text.count(old), 1, old)
@@ -51,7 +51,7 @@ def changed(only, *changes):
 
 
 def test_same():
-    """A program against itself: no case differs, status 0"""
+    """A program equals itself: no case differs, status 0"""
     with Folder() as f:
         fake = program(f, "fake", FAKE)
         status, out = net("--against", fake, "--program", fake, "--only", "^list/|^screen/form/stand$")
@@ -60,7 +60,7 @@ def test_same():
 
 
 def test_one_case():
-    """What a case prints, on either stream or in a file, or how it ends: each case is named with its lines, status 1"""
+    """Output of a case on a stream or in a file, or its status: each differing case is reported with its lines, status 1"""
     status, out = changed("^list/--(version|list-profiles)$|^screen/form/(line|stand)$|^page/seed$",
                           ("fake 1", "fake 2"), ("such list", "such file"), ("exit 3", "exit 2"), ("2.5", "2.4"),
                           ("play.txt)", "play.txt | sed s/002/0x2/)"))
@@ -80,7 +80,7 @@ def test_one_case():
 
 
 def test_long():
-    """Of a long difference the first 20 lines are shown, and the names of the streams and files that differ besides"""
+    """A long difference shows its first 20 lines, and the names of other differing streams and files"""
     status, out = changed("^screen/form/line$", ("echo \"a screen\"", "seq 30"))
     expect_equal((status, differing(out)), (1, ["screen/form/line"]), out)
     shown = out.splitlines()[1:-1]
@@ -89,7 +89,7 @@ def test_long():
 
 
 def test_blanked():
-    """Seconds and the version within JSON are not compared, another figure beside them is"""
+    """Seconds and the version in JSON are ignored, another figure is not"""
     not_seen = ("0.125", "17"), ('"version": "1"', '"version": "1.2.3"')
     for wanted, changes in ((0, not_seen), (1, (*not_seen, ('"runs": 3', '"runs": 4')))):
         status, out = changed("^page/seed$", *changes)
@@ -97,7 +97,7 @@ def test_blanked():
 
 
 def test_list():
-    """--list names every case once, those of all scenes among them; where --only fits none nothing is compared"""
+    """--list names every case once, including those of all scenes; if --only matches none nothing is compared"""
     status, out = net("--list")
     names = out.splitlines()
     expect_equal((status, len(set(names))), (0, len(names)), "status, names")
@@ -109,14 +109,14 @@ def test_list():
 
 
 def test_program():
-    """The program against itself: pages, pictures, screens are the same twice"""
+    """The program against itself: pages, pictures and screens repeat exactly"""
     status, out = net("--against", CEDUO, "--program", CEDUO, "--only", "^list/|^page/paper-site/(table|csv|json)|"
                       "^plot/road-below/stand|^screen/form/steps$|^screen/random/3$")
     expect_equal((status, differing(out)), (0, []), out)
     expect(int(re.search(r"(\d+) with 0", out).group(1)) > 20, "most should end well", out)
 
 
-# ---- a commit before ----
+# ---- an earlier commit ----
 
 MAKEFILE = """\
 build/release/ceduo: fake
@@ -128,7 +128,7 @@ build/release/ceduo: fake
 
 
 class Tree(Folder):
-    """A repository whose program is the fake one."""
+    """A repository with the fake program."""
 
     def __enter__(self):
         if not shutil.which("git"):
@@ -157,7 +157,7 @@ class Tree(Folder):
         return net("--program", self.tree / "fake", "--only", "^list/--version$", *words, tree=self.tree, LOG=str(self.log))
 
     def expect_found(self, old, *words):
-        """The version that stands against that of the tree; None: the same."""
+        """Expect the difference of a version to that of the tree; None: equal."""
         status, out = self.net(*words)
         expect_equal(re.findall(r"^  -(one|two|three|four)$", out, re.M), [old] if old else [], out)
         expect_equal(status, 1 if old else 0, out)
@@ -168,7 +168,7 @@ class Tree(Folder):
 
 
 def test_commits():
-    """Compared with the commit before, with HEAD where something is changed, with the one that is named; each built once"""
+    """Compare with the commit before, with HEAD if something changed, or with a named one; each is built once"""
     with Tree() as t:
         one, two, three = t.commit("one"), t.commit("two"), t.commit("three")
         expect_in("before: HEAD~1, ", t.expect_found("two"))
@@ -182,7 +182,7 @@ def test_commits():
 
 
 def test_commits_wrong():
-    """A commit that there is not, and one that cannot be built: told, status 2, nothing half built is kept"""
+    """An unknown commit, or one that does not build: reported, status 2, no half build is kept"""
     with Tree() as t:
         t.commit("one")
         t.write("tree/fake", "nothing to run\n")

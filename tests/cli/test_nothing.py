@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where hardly a rock arrives even without forest nothing can be said, and every output says so; and profiles drawn upward."""
+"""If too few rocks arrive even without forest every output says that there is no answer; and profiles drawn upward."""
 import copy
 import json
 import re
@@ -12,7 +12,7 @@ from harness import INPUT, Folder, ceduo, expect, expect_equal, expect_in, good,
 from pages import WHOLE
 from runs import read_csv
 
-# A line as it is drawn on a map: it begins 4 m behind the edge of the cliff, on ground where no rock moves.
+# A line as drawn on a map: it begins 4 m above the edge of the cliff, on ground too flat for rocks.
 LINE = [(0, 141.4), (4, 140), (14, 105), (40, 88), (100, 50), (160, 15)]
 SAYS = "cannot be assessed"
 
@@ -42,7 +42,7 @@ def expect_said(text, *parts):
 
 
 def test_outputs():
-    """A profile that begins on flat ground: page, JSON, CSV, years, report, check, find and sensitivity say that nothing can be said."""
+    """A profile that begins on flat ground: page, JSON, CSV, years, report, check, find and sensitivity give no answer."""
     with Folder() as f:
         path = behind_the_edge(f)
         page = good(*WHOLE, path).out
@@ -78,7 +78,7 @@ def test_outputs():
 
 
 def test_edge():
-    """The same with the release at the edge of the cliff has an answer, and no such warning"""
+    """The same scene released at the edge of the cliff has an answer, and no such warning"""
     with Folder() as f:
         path = behind_the_edge(f, release={"x_m": 4})
         run = result(path)
@@ -91,7 +91,7 @@ def test_edge():
 
 
 def test_options():
-    """No option is best where nothing can be said, today or over the years"""
+    """No option is best without an answer, today or over the years"""
     with Folder() as f:
         path = behind_the_edge(f, forest=None, options=[
             {"name": name, "forest": [{"from_m": 20, "to_m": 110, "stand": name}]} for name in ("simple-coppice", "large-reserves")])
@@ -102,7 +102,7 @@ def test_options():
 
 
 def test_few():
-    """Fewer than 1 of 1000 rocks that arrive say nothing; a control that they reach has its answer beside one that they do not"""
+    """Fewer than 1 in 1000 arriving rocks give no answer; another control with arrivals has its answer"""
     with Folder() as f:
         path = behind_the_edge(f, release={"x_m": 4}, controls=[{"x_m": 60, "accepted_kJ": 50}, {"x_m": 160, "accepted_kJ": 50}],
                                slope={"vertices_m": [*LINE[:4], [60, 75], [160, 75]], "segments": [{"rn": 0.3, "rt": 0.8}]})
@@ -115,7 +115,7 @@ def test_few():
 
 
 def test_answers():
-    """verdict.answer follows the interval of the share and the limit of 5 of 100, and says whether the other law agrees"""
+    """verdict.answer follows the interval of the share and the limit of 5 in 100, and reports if the other law agrees"""
     with Folder() as f:
         seen = set()
         for accepted in range(10, 200, 10):
@@ -139,7 +139,7 @@ def test_answers():
 
 # ---- profiles drawn upward ----
 
-# Stretches of different lengths with a ground each.
+# Stretches of different lengths, each with its ground.
 GROUND = [{"rn": 0.32 + i / 100, "rt": 0.8 + i / 100, "roughness_rad": 0.1, "friction": 0.4 + i / 100} for i in range(5)]
 BANDS = [(0, 14, "cliff"), (14, 60, "talus"), (60, 160, "soft-soil-v4")]
 
@@ -155,7 +155,7 @@ def band(a, b, material):
 
 
 def test_upward_refused():
-    """A profile whose last vertex is higher than its first is refused with its mend; one that falls is not turned round"""
+    """A profile whose last vertex is higher than its first is refused with its remedy; a falling one is not reversed"""
     with Folder() as f:
         f.write("up.csv", csv(upward(LINE)))
         for slope in ({"csv": "up.csv"}, {"vertices_m": upward(LINE), "segments": GROUND[:1]}):
@@ -171,7 +171,7 @@ def test_upward_refused():
 
 
 def test_mirrored():
-    """reversed mirrors the profile with its segments or materials: all figures are those of the same profile drawn downward"""
+    """reversed mirrors the profile with its segments or materials: all figures equal those of the profile drawn downward"""
     with Folder() as f:
         f.write("up.csv", csv([(x + 500, z) for x, z in upward(LINE)]))
         moved = [(x + 500, z) for x, z in LINE]
@@ -189,7 +189,7 @@ def test_mirrored():
 
 
 def test_mirrored_paths():
-    """A path into such a slope means the item of its file, for --set and for uncertainty alike; so does a ground of the library"""
+    """A path into such a slope means the item of its file, for --set and for uncertainty; so does a ground of the library"""
     with Folder() as f:
         def file(up, uncertainty):
             profile = {"vertices_m": upward(LINE) if up else LINE, "segments": copy.deepcopy(GROUND[::-1] if up else GROUND)}
@@ -216,7 +216,7 @@ OUTPUTS = ("", "--details --years", "--sensitivity=4", "--report -", "-f csv --y
 
 
 def test_no_number():
-    """One rock has no spread, and what it did not do no mean: no page, cell, object or picture says nan or inf for it"""
+    """One rock has no spread, and no arrivals no mean: no page, cell, object or picture prints nan or inf"""
     for name in ("paper-site", "rotation", "blocks-above-the-road", "vaujany"):
         for words in OUTPUTS:
             out = ceduo("--batch", "-n", 1, *words.split(), name).out

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was seen of real rocks: the forms in which a scene may say it, and what is refused."""
+"""Observations of real rocks: accepted forms, and errors."""
 import json
 import math
 
@@ -36,7 +36,7 @@ STOPS = {"stops": {"x_m": [40, 50, 60], "of": 5}}
 
 
 def test_forms():
-    """A list of rows and a mapping of kinds; what belongs beside a kind may stand within it"""
+    """A list of rows and a mapping of kinds; keys for all rows of a kind may be inside it"""
     accepted([STOPS])
     accepted(STOPS)
     accepted([{"stops": {"x_m": [40, 50, 60]}, "use": "check", "name": "spring"}])
@@ -46,7 +46,7 @@ def test_forms():
 
 
 def test_too_many():
-    """A thousand rows are read, and one more is refused by its number"""
+    """A thousand rows are read, and one more is refused with its number"""
     row = {"stops": {"x_m": [40], "of": 1}}
     accepted([{**row, "name": f"n{i}"} for i in range(1000)])
     refused("1001 items; at most 1000 can be computed", [{**row, "name": f"n{i}"} for i in range(1001)])
@@ -77,7 +77,7 @@ def test_kinds():
 
 
 def test_values():
-    """Each kind, as values and as their mean: what is compared is what the file says, in its unit and its coordinates"""
+    """Each kind, as values and as their mean: compared in the file's unit and coordinates"""
     ground = {"vertices_m": [[1000, 70], [1100, 0]], "segments": [{"rn": 0.3, "rt": 0.9, "roughness_rad": 0.2}]}
     stretch = {"from_m": 1020, "to_m": 1060}
     seen = {"stops": {"x_m": [1040, 1052]}, "passed at 1050 m": 3, "scars": {**stretch, "height_m": [0.5, 1.2]}}
@@ -109,7 +109,7 @@ def test_values():
 
 
 def test_places():
-    """What lies off the profile, before the release or where nobody looked"""
+    """Places off the profile, above the release or outside the observed area"""
     refused("s.yaml:", [{"stops": {"x_m": [40, 120]}}])
     refused("120 lies outside the slope, which goes from 0 to 100 m", [{"stops": {"x_m": [40, 120]}}])
     refused("-3 lies outside the slope", {"stops": {"x_m": [-3, 40]}})
@@ -127,7 +127,7 @@ def test_places():
 
 
 def test_counts():
-    """More seen than released; names and options"""
+    """More observed than released; names and options"""
     refused("observed[0].stops.of: 3 observed, but only 2 released; correct one", [{"stops": {"x_m": [40, 50, 60], "of": 2}}])
     refused("9 observed, but only 8 released; correct one", {"passed": {"x_m": 50, "count": 9, "of": 8}})
     refused("'a' is given twice", [{**STOPS, "name": "a"}, {**STOPS, "name": "a"}])
@@ -136,7 +136,7 @@ def test_counts():
 
 
 def test_rocks():
-    """A rock and a release of its own; what the release does not say is as in the scene"""
+    """A separate rock and release; missing keys of the release are the scene's"""
     accepted([{**STOPS, "rock": {"shape": "block", "axes_m": [0.4, 0.3, 0.2], "mass_kg": 60}}])
     refused("a sphere needs one of", [{**STOPS, "rock": {"density_kg_m3": 2500}}])
     refused("does not belong to the shape 'sphere'", [{**STOPS, "rock": {"diameter_m": 1, "height_m": 2}}])
@@ -174,7 +174,7 @@ def test_tables():
 
 
 def seen(observed, *files):
-    """Number and mean of the stops that were seen, as a calibration prints them"""
+    """Number and mean of the observed stops, as a calibration prints them"""
     with Folder() as f:
         for name, text in files:
             f.write(name, text)
@@ -185,7 +185,7 @@ def seen(observed, *files):
 
 
 def test_tables_of_offices():
-    """Stops as a GIS, a spreadsheet and a field book write them; a place on the map is no distance; a word of `only` may be a number"""
+    """Stops as a GIS, a spreadsheet and a field book write them; map coordinates are no distance; `only` may be a number"""
     listed = [40.5, 51.25, 47, 66]
     rows = "".join(f"{i};{x};{1 + i % 2}\n" for i, x in enumerate(listed))
     wanted = seen({"x_m": listed})
@@ -214,7 +214,7 @@ def test_tables_of_offices():
 
 
 def test_misplaced():
-    """Kinds, rows and tables that are of another form than they can be"""
+    """Kinds, rows and tables of an impossible form"""
     table = ("stops.csv", TABLE)
     mean = {"mean": 10, "sd": 2, "n": 5}
     refused("observed", [5])
@@ -253,7 +253,7 @@ def test_misplaced():
 
 
 def test_draws_have_names():
-    """A column of draws without a name, or with one of no value of the scene"""
+    """A column of draws without a name, or with an unknown one"""
     draws = {"uncertainty": {"draws": "d.csv"}}
     accepted([], ("d.csv", "rock.density_kg_m3\n2600\n"), **draws)
     refused("the column '' is not a value of this scene; rename it", [], ("d.csv", "rock.density_kg_m3,\n2600,1\n"), **draws)
@@ -262,7 +262,7 @@ def test_draws_have_names():
 
 
 def test_others_do_not_mind():
-    """A scene with observations is computed as without; --option may leave out what they are of"""
+    """Observations do not change a run; --option may drop their option"""
     with Folder() as f:
         forest = [{"name": n, "forest": []} for n in ("a", "b")]
         both = f.write("s.yaml", quarry([{**STOPS, "option": "b"}], options=forest, forest=None))

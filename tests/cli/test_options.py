@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: brief
-"""Contact models and options: what they share, and in what they differ."""
+"""Contact models and options: common and different results."""
 import csv
 import io
 import math
@@ -16,12 +16,12 @@ from runs import DIFFERENCES, FOUR, MODELS, PAPER, THICK, THIN, expect_run, no_d
 
 
 def same_run(a, b):
-    """Of two options: all that a run finds, without the name."""
+    """Expect two options to have equal results, except for the name."""
     return {k: v for k, v in a.items() if k != "name"} == {k: v for k, v in b.items() if k != "name"}
 
 
 def test_contact_models():
-    """index and stems: bare and index are the same in both, rocks go through the wood by stems alone"""
+    """index and stems: the bare slope and the index agree, only stems simulate rocks in the forest"""
     with Folder() as f:
         path = f.write("s.yaml", wooded_scene())
         runs = {model: result(path, *through(model)) for model in MODELS}
@@ -45,7 +45,7 @@ def test_contact_models():
 
 
 def test_no_stems_on_the_way():
-    """No stem on the way to a control: wooded is bare there in every figure, with no contact"""
+    """No stem before a control: wooded equals bare in every figure, without contacts"""
     def expect_bare(control, where):
         wooded = dict(control["wooded"])
         expect_equal(wooded.pop("contacts"), {"mean": 0, "se": 0}, f"{where}: contacts")
@@ -70,12 +70,12 @@ def test_no_stems_on_the_way():
         for name in ("bare", "above"):
             expect(same_run({**found[name], "stands": [], "summary": 0, "controls": 0},
                             {**found["none"], "stands": [], "summary": 0, "controls": 0}), f"{name}: ends")
-        # none and bare are the run without forest; the others fly under each energy law
+        # none and bare are the run without forest; the others run under each energy law
         expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (7, 14000), "runs")
 
 
 def test_duplicate_option():
-    """An option under another name shares its run: no more rocks, the same figures, a difference of exactly 0"""
+    """An option under another name shares its run: no more rocks, equal figures, a difference of exactly 0"""
     with Folder() as f:
         options = [{"name": n, "forest": [belt(10, 95, **({} if n != "other" else {"trees": []}))]}
                    for n in ("first", "other", "again", "renamed stand")]
@@ -104,7 +104,7 @@ def test_duplicate_option():
 
 
 def test_option_subset():
-    """--option: the figures of an option do not depend on which others run with it; differences are to the first that is left"""
+    """--option: an option's figures do not depend on other options; differences are to the first remaining one"""
     with Folder() as f:
         path = f.write("s.yaml", treated(none=None, many_thin=THIN, few_thick=THICK))
         whole = {o["name"]: o for o in result(path)["options"]}
@@ -116,7 +116,7 @@ def test_option_subset():
 
 
 def test_no_pair_differs():
-    """Where no rock fares differently through two forests, that is a bound and no error: in JSON, in CSV and on the page"""
+    """If no rock differs between two forests, the difference has a bound and no error: in JSON, in CSV and on the page"""
     with Folder() as f:
         more = {**THICK, "trees": [{**THICK["trees"][0], "per_ha": THICK["trees"][0]["per_ha"] + 1e-9}]}
         path = f.write("s.yaml", treated(thick=THICK, as_thick=more))
@@ -133,7 +133,7 @@ def test_no_pair_differs():
 
 
 def test_difference_errors():
-    """Differences of options are between the same rocks: their error is that of pairs, smaller than of two runs apart"""
+    """Differences of options use the same rocks: their error is that of pairs, smaller than for separate runs"""
     with Folder() as f:
         path = f.write("s.yaml", treated(thick=THICK, one_more={**THICK, "trees": [{**THICK["trees"][0], "per_ha": 303}]}, thin=THIN))
         run = result(path, "-n", 4000)
@@ -141,7 +141,7 @@ def test_difference_errors():
         differences = {d["option"]: d for d in run["differences"] if d["x_m"] == 105}
         apart = math.hypot(first["energy_per_released_kJ"]["se"], near["energy_per_released_kJ"]["se"])
         expect(0 < differences["one more"]["energy_per_released_kJ"]["se"] < 0.5 * apart, apart, differences["one more"])
-        # a difference that is there is found at many times its error
+        # a real difference is found at many times its error
         d = differences["thin"]["energy_per_released_kJ"]
         expect(d["mean"] > 10 * d["se"] > 0, d)
         bare = [o["controls"][1]["bare"] for o in run["options"]]
@@ -149,7 +149,7 @@ def test_difference_errors():
 
 
 def test_option():
-    """--option keeps those asked for, in the scene's order; an unknown name is status 2"""
+    """--option keeps the named options, in the scene's order; an unknown name is status 2"""
     names = ["large reserves", "simple coppice, 25 years"]
     run = result(FOUR, "-n", 20, "--option", names[0], "--option", names[1])
     expect_equal([o["name"] for o in run["options"]], names[::-1])
@@ -158,7 +158,7 @@ def test_option():
     expect_equal(result(PAPER, "-n", 1, "--option", "current")["options"][0]["name"], "current")
     done = ceduo("--batch", FOUR, "--option", "nope")
     expect(done.status == USAGE and done.out == "" and "'nope'" in done.err, done)
-    for name in ("in three, top first", "in tre, dall'alto"):  # as it is called in the language that is read
+    for name in ("in three, top first", "in tre, dall'alto"):  # its name in the language of the reader
         left = result("staggered", "-n", 20, "--language", "it", "--option", name)["options"]
         expect_equal([o["name"] for o in left], ["in three, top first"])
     done = ceduo("--check", FOUR, "--option", "nope")
@@ -166,7 +166,7 @@ def test_option():
 
 
 def test_spread_uses_nothing_else():
-    """All options of a scene fly the same rocks, and adding an option changes no number of another"""
+    """All options of a scene use the same rocks, and adding an option changes no number of another"""
     run = result(FOUR, "-n", 300)
     expect(all(o["controls"][0]["bare"] == run["options"][0]["controls"][0]["bare"] for o in run["options"]), "bare")
     one = result(FOUR, "-n", 300, "--option", "large reserves")["options"][0]

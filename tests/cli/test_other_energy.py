@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The same rocks under the other energy law of stems: in JSON, on the page, and where the options change their order."""
+"""The same rocks under the other energy law: in JSON, on the page, and for options whose order changes."""
 import json
 import re
 import sys
@@ -19,7 +19,7 @@ def law(name, belts=2):
 
 
 def expect_other(run, turned, model):
-    """What is said of the other law is what the run under that law finds."""
+    """Expect the figures of the other law to equal a run under that law."""
     for option, under in zip(run["options"], turned["options"]):
         for control, at in zip(option["controls"], under["controls"]):
             wooded = at["wooded"]
@@ -31,7 +31,7 @@ def expect_other(run, turned, model):
 
 
 def test_both_ways():
-    """JSON: the other law's figures are those of the same rocks under that law, to the last bit, both ways"""
+    """JSON: the other law's figures equal a run of the same rocks under that law to the last bit, both ways"""
     brauner, dorren = (result(PAPER, "-n", 3000, *law(name)) for name in ("brauner", "dorren"))
     expect_other(brauner, dorren, "dorren")
     expect_other(dorren, brauner, "brauner")
@@ -40,7 +40,7 @@ def test_both_ways():
 
 
 def test_few_are_enough():
-    """Beyond 10240 rocks those first ones show the other law, with their own interval"""
+    """Beyond 10240 rocks the first ones represent the other law, with their own interval"""
     most, more = 10240, ("-n", 25000)
     run, turned = result(PAPER, *more), result(PAPER, "-n", most, *law("dorren"))
     for part in (run, result(PAPER, *more, "-j", 2)):
@@ -52,7 +52,7 @@ def test_few_are_enough():
     expect("rocks alone were simulated" not in good(*WHOLE, "-n", most, PAPER).out, "all of them")
 
 def test_none():
-    """JSON: null by the index, without stems and in years; without an accepted energy there is none to exceed"""
+    """JSON: null by the index, without stems and in years; without an accepted energy there is no exceeding share"""
     expect_equal(result(PAPER, *through("index"))["options"][0]["controls"][0]["other_energy"], None)
     with Folder() as f:
         path = f.write("s.yaml", wooded_scene(forest=None, options=[
@@ -105,7 +105,7 @@ def test_order():
 
 
 def test_tolerance():
-    """-e waits for the printed means of the scene's own law alone"""
+    """-e refines only the printed means of the scene's own law"""
     with Folder() as f:
         rare = stand(stools=None, shoots=None, trees=[{"per_ha": 400, "dbh_m": 0.12, "height_m": 9, "volume_m3": 0.0001}],
                      species="quercus-cerris")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several scenes, standard streams and -o: what is written where, and how the program ends."""
+"""Several scenes, standard streams and -o: destinations of output, and exit statuses."""
 import os
 import re
 import signal
@@ -15,11 +15,11 @@ from harness import (CEDUO, DONE, INPUT, OUTPUT, PATIENCE, RUN, USAGE, Folder, S
 from pages import WHOLE
 from runs import ENDLESS, FOUR, PAPER
 
-PAGE = ("--batch", "-s", "uncertainty=none")  # what is not known takes most of the time of a page
+PAGE = ("--batch", "-s", "uncertainty=none")  # uncertainty takes most of a page's time
 
 
 def test_energies_of_the_paper():
-    """The page has what stems take as the paper: 67.5 m of each plot at its ADC and energy of a contact, and what Eq. 5 leaves"""
+    """The page has the paper's energies: 67.5 m of each plot at its ADC and contact energy, and the residual of Eq. 5"""
     page = good(*WHOLE, "-n", 50, PAPER).out
     for plot, adc, joule in ((1, 1.9483, 1099.96), (2, 2.6054, 606.52)):
         row = re.search(rf"ADS {plot} .* (\S+) +(\S+)\n", page)
@@ -63,7 +63,7 @@ def test_highest_status():
 
 
 def test_stdin():
-    """'-' reads a scene from standard input, with profiles by their relative paths; only once"""
+    """'-' reads a scene from standard input, with profiles by relative paths; only once"""
     text = PAPER.read_bytes()
     run = result("-", stdin=text, cwd="/")
     wanted = result(PAPER)
@@ -78,7 +78,7 @@ def test_stdin():
 
 
 def test_stdin_closed():
-    """A closed standard input: no matter for files, an error for '-'"""
+    """A closed standard input: irrelevant for files, an error for '-'"""
     shell = ["sh", "-c", '"$0" "$@" <&-', CEDUO, *PAGE, "-n", "10"]
     done = subprocess.run([*shell, str(PAPER)], env=environment(), capture_output=True, timeout=PATIENCE, check=False)
     expect(done.returncode == DONE and done.stdout and not done.stderr, done)
@@ -87,7 +87,7 @@ def test_stdin_closed():
 
 
 def test_output_file():
-    """-o writes the file whole, as standard output would have it, and leaves nothing beside it"""
+    """-o writes the complete file, equal to standard output, without leftovers"""
     with Folder() as f:
         for form in ("table", "csv"):
             target = f.path / f"out.{form}"
@@ -104,7 +104,7 @@ def test_output_file():
 
 
 def test_output_dash():
-    """-o - is standard output in every mode, and no file is called so"""
+    """-o - is standard output in every mode, and no file is created"""
     talus = {"vertices_m": [[0, 64], [100, 0]], "segments": [{"rn": 0.35, "rt": 0.875, "roughness_rad": 0.125}]}
     with Folder() as f:
         f.write("small.yaml", scene(forest=[{"from_m": 10, "to_m": 70, "stand": stand()}]))
@@ -130,7 +130,7 @@ def test_output_dash():
 
 
 def test_large_output():
-    """What is more than a megabyte is written whole or not at all, too: a signal leaves neither it nor its beginning"""
+    """Output over a megabyte is written completely or not at all: a signal leaves no part of it"""
     with Folder() as f:
         rows = f.write("rows.csv", "id,rock.diameter_m\n" + "".join(f"r{i},{0.5 + i / 10000}\n" for i in range(2000)))
         words = ["--batch", "-q", "-f", "csv", "-n", "1", "-j", "1", "--each", str(rows), f.write("s.yaml", scene())]
@@ -167,7 +167,7 @@ def umask():
 
 
 def test_output_existing():
-    """-o keeps an existing file's mode, a link stays a link, a failed run leaves the old file"""
+    """-o keeps an existing file's mode, a link stays a link, a failed run keeps the old file"""
     with Folder() as f:
         target = f.write("out.txt", "old")
         target.chmod(0o640)
@@ -189,7 +189,7 @@ def test_output_existing():
 
 
 def test_output_dangling():
-    """-o through a link that points to nothing writes there; the link stays"""
+    """-o through a dangling link creates its target; the link stays"""
     with Folder() as f:
         link = f.path / "link.txt"
         link.symlink_to("target.txt")
@@ -200,7 +200,7 @@ def test_output_dangling():
 
 
 def test_output_devices():
-    """-o to a device goes straight: /dev/null is good, /dev/full is status 4, a FIFO's reader gets it"""
+    """-o to a device writes directly: /dev/null works, /dev/full is status 4, a FIFO's reader receives it"""
     expect_equal(good(*PAGE, "-n", 5, "-o", "/dev/null", PAPER).out, "")
     expect(not Path("/dev/null").is_file(), "/dev/null was replaced")
     done = ceduo(*PAGE, "-n", 5, "-o", "/dev/full", PAPER)
@@ -217,7 +217,7 @@ def test_output_devices():
 
 
 def test_output_impossible():
-    """-o to a folder, into a missing folder, or to nothing: status 4, named, nothing left behind"""
+    """-o to a folder, into a missing folder, or to nothing: status 4, reported, no leftovers"""
     with Folder() as f:
         for target in (f.path, f.path / "no" / "out.txt", "", PAPER / "out.txt", f.path / ("x" * 300)):
             done = ceduo(*PAGE, "-n", 5, "-o", target, PAPER, cwd=f.path)
@@ -226,7 +226,7 @@ def test_output_impossible():
 
 
 def test_output_told_first():
-    """That -o cannot be written is told before anything is read or computed"""
+    """An unwritable -o is reported before anything is read or computed"""
     with Folder() as f:
         for target in (f.path, f.path / "no" / "out.txt", "", f.path / ("x" * 300)):
             for words in (["--batch"], ["--find", "rock.diameter_m=0.2:1", "--goal", "adc=30"]):
@@ -236,7 +236,7 @@ def test_output_told_first():
 
 
 def test_output_large():
-    """-o of many scenes: what stdout gets"""
+    """-o of many scenes equals stdout"""
     wanted = good("--batch", "-f", "csv", "-n", 1, *[PAPER] * 1000).out
     expect(len(wanted) > 2_000_000, "bytes of output", len(wanted))
     with Folder() as f:
@@ -285,7 +285,7 @@ def test_stdout_closed():
         done = subprocess.run(["sh", "-c", '"$0" "$@" >&-', CEDUO, *mode], env=environment(), capture_output=True,
                               timeout=PATIENCE, check=False)
         expect(done.returncode == OUTPUT and done.stderr, mode, done)
-    with Folder() as f:  # what is opened later must not become standard output or error
+    with Folder() as f:  # files opened later must not become standard output or error
         done = subprocess.run(["sh", "-c", '"$0" "$@" >&- 2>&-', CEDUO, *PAGE, "-n", "5", "-o",
                                str(f.path / "out.txt"), str(PAPER)], env=environment(), timeout=PATIENCE, check=False)
         expect_equal(done.returncode, DONE, "only the file is written")
@@ -293,7 +293,7 @@ def test_stdout_closed():
 
 
 def test_stdout_full():
-    """A full disk behind standard output is status 4 in every mode that prints"""
+    """A full disk for standard output is status 4 in every mode that prints"""
     for mode in MODES:
         with open("/dev/full", "wb") as full:
             done = subprocess.run([CEDUO, *mode], stdout=full, stderr=subprocess.PIPE, env=environment(), timeout=PATIENCE,
@@ -302,7 +302,7 @@ def test_stdout_full():
 
 
 def test_closed_pipe():
-    """A reader that goes away ends the program without noise"""
+    """A reader that leaves ends the program silently"""
     for mode in MODES:
         read, write = os.pipe()
         os.close(read)
@@ -313,7 +313,7 @@ def test_closed_pipe():
 
 
 def test_output_is_input():
-    """-o leaves every file alone that is read in the same run: scenes, what they refer to, by any name"""
+    """-o overwrites no input file of the same run: scenes and their references, by any name"""
     with Folder() as f:
         f.write("line.csv", "distance,elevation\n0,64\n100,0\n")
         f.write("stand.yaml", stand(ceduo="stand/1"))

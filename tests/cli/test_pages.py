@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow
-"""The manual, but ceduo-workflows(7) and ceduo(3): every command of a page is run, in the order of the page, and prints what is shown;
-every file that is shown is read. `test_pages.py --write` puts what is printed into the pages.
+"""The manual except ceduo-workflows(7) and ceduo(3): every command of a page runs, in order, and prints the shown text; every
+shown file is read. `test_pages.py --write` updates the pages.
 
-Before a display stands a comment: "run WAY" of commands, "shows WAY" of what the commands before it print, "file NAME" of a file,
-"keys" of keys that take the place of those in the first file of the page."""
+A comment precedes each display: "run WAY" for commands, "shows WAY" for the output of earlier commands, "file NAME" for a file,
+"keys" for keys that replace those in the first file of the page."""
 import os
 import re
 import sys
@@ -22,21 +22,21 @@ CEDUO = re.compile(r"^(?!ceduo$|ceduo four\\-systems$).*\bceduo (\\?-|\S+\.yaml)
 
 
 def troff(text):
-    """As it stands in a page."""
+    """Return text as in the source of a page."""
     text = re.sub(r"[^\x00-\x7f]", lambda m: f"\\[u{ord(m[0]):04X}]", text.replace("\\", "\\e").replace("-", "\\-"))
     return re.sub(r"^(?=[.'])", lambda m: "\\&", text, flags=re.M)
 
 
 def shown(text):
-    """What the reader sees of it."""
+    """Return text as its reader sees it."""
     return plain(re.sub(r"\\\[u([0-9A-F]{4})\]", lambda m: chr(int(m[1], 16)), text))
 
 
-UNDERSTOOD = r"[\w.-]+: (columns that are set: |colonne impostate: |\d+ plots |\d+ saggi )"  # how a table was read, on standard error
+UNDERSTOOD = r"[\w.-]+: (columns that are set: |colonne impostate: |\d+ plots |\d+ saggi )"  # on standard error
 
 
 def played(page, **more):
-    """Mark, name and text of each display of a page, and what its commands print."""
+    """Yield mark, name and text of each display of a page, and its commands' output."""
     with Folder() as work, Machine() as machine:
         printed = ""
         for m in MARKED.finditer(page.read_text(encoding="utf-8")):
@@ -52,7 +52,7 @@ def played(page, **more):
 
 
 def test_commands():
-    """Every command of the pages is run, and prints what is shown"""
+    """Every command of the pages runs, and prints the shown text"""
     for page in PAGES:
         for _, what, _, body, printed in () if page.name in SLOW else played(page):
             if what == "shows":
@@ -60,7 +60,7 @@ def test_commands():
 
 
 def test_italian_samples():
-    """What the Italian ceduo-output(5) shows is what its commands print in Italian"""
+    """The Italian ceduo-output(5) shows the Italian output of its commands"""
     page = ROOT / os.environ.get("BUILD", "build/release") / "man/it/ceduo-output.5"
     shows = [(printed, body) for _, what, _, body, printed in played(page, LANGUAGE="it") if what == "shows"]
     expect(len(shows) > 5, f"{len(shows)} displays")
@@ -69,7 +69,7 @@ def test_italian_samples():
 
 
 def test_all_are_marked():
-    """No display has a command and no mark"""
+    """Every display with a command has a mark"""
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
         rest = "\n".join(re.findall(r"^\.Bd -literal[^\n]*\n(.*?)^\.Ed$", MARKED.sub("", text), re.M | re.S))
@@ -77,12 +77,12 @@ def test_all_are_marked():
 
 
 def by_key(text):
-    """The lines of each key of a file."""
+    """Return the lines of each key of a file."""
     return dict(re.findall(r"^(\w+)(:.*?\n)(?=\w|\Z)", re.sub(r"^#.*\n", "", text, flags=re.M), re.M | re.S))
 
 
 def test_files():
-    """Every file that a page shows is read without a word, and with each of the keys that it shows besides"""
+    """Every file that a page shows is valid, also with each further key that it shows"""
     count = 0
     for page in PAGES:
         displays = [(m[1], (m[2] or "").strip(), shown(m[4])) for m in MARKED.finditer(page.read_text(encoding="utf-8"))]

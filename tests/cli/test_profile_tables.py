@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Profiles as offices, GIS and instruments write them: read right, or refused with a remedy that works."""
+"""Profiles as offices, GIS and instruments write them: read correctly, or refused with a working remedy."""
 import re
 import sys
 from pathlib import Path
@@ -15,12 +15,12 @@ GROUND = {"segments": [{"rn": 0.3, "rt": 0.8}]}
 
 
 def runs(f, slope):
-    """What rocks do on a slope: the figures of its control, and where rocks stop"""
+    """Return the results on a slope: the figures of its control, and the stops of rocks"""
     return result("-n", 200, f.write("s.yaml", scene(slope={**slope, **GROUND}, controls=[{"x_m": 84}])))["options"][0]["controls"]
 
 
 def expect_same(found, wanted, what):
-    """The same figures but for the rounding of coordinates"""
+    """Expect equal figures within the rounding of coordinates"""
     if isinstance(wanted, dict):
         expect_equal(sorted(found), sorted(wanted), what)
     if isinstance(wanted, (dict, list)):
@@ -54,7 +54,7 @@ def expect_refused(f, name, content, words, **slope):
         expect_in(word, done.err, name)
 
 
-READ = [  # (file, vertices, words of the line of understanding, keys of the slope)
+READ = [  # (file, vertices, words of the understanding, keys of the slope)
     ("qgis-profile.csv", POINTS, ["6 points, 160 m long, falls 86.5 m; columns distance, elevation"], {}),
     ("qgis-two-layers.csv", POINTS, ["line 'dtm_1m' of 2"], {"layer": "dtm_1m"}),
     ("excel-italian.csv", POINTS, ["columns Distanza progressiva (m), Quota terreno (m s.l.m.); decimal commas; not used: Punto, Note"], {}),
@@ -87,7 +87,7 @@ def points_of(name, text):
     return {"excel-german-two-ways.csv": [[x, int(z)] for x, z in HIGHER]}.get(name, POINTS)
 
 
-MENDED = [  # (file, words of the refusal, how the remedy is followed, vertices, keys of the slope then)
+MENDED = [  # (file, words of the refusal, steps of the remedy, then vertices and keys of the slope)
     ("qgis-two-layers.csv", ["2 lines: dsm_1m, dtm_1m", "'layer: dsm_1m'"], lambda s: s, POINTS, {"layer": "dtm_1m"}),
     ("gmt-two-lines.txt", ["2 lines: left line, right line"], lambda s: s, POINTS, {"layer": "right line"}),
     ("excel-german-two-ways.csv", [":2:3: '1.412' can be read in two ways: write '1412' or '1,412'", "5 more"],
@@ -101,7 +101,7 @@ MENDED = [  # (file, words of the refusal, how the remedy is followed, vertices,
 
 
 def test_remedies():
-    """What is refused names the line and the remedy, and the remedy works"""
+    """A refusal has the line and the remedy, and the remedy works"""
     with Folder() as f:
         for name, words, mend, vertices, slope in MENDED:
             content = (SHEETS / name).read_bytes()
@@ -121,7 +121,7 @@ def rows(separator=",", decimal="."):
 
 
 def test_heads():
-    """Names of the columns in four languages, with their units in brackets, behind the name and in a row of their own"""
+    """Names of columns in four languages, with units in brackets, after the name and in a separate row"""
     with Folder() as f:
         for head in ("distance,elevation", "distanza,quota", "dist,altitude", "chainage,altitudine", "x,alt", "distance,height", "x,z",
                      "distance,value", "Distance (m),Elevation [m]", "distanza_m,quota_m_slm", "Dist. m,Quota m s.l.m.", "Entfernung,H\u00f6he m \u00fc. M.",
@@ -135,7 +135,7 @@ def test_heads():
 
 
 def test_numbers():
-    """One convention for a whole file; what could be read in two ways is asked about, by line"""
+    """One number convention per file; ambiguous numbers are asked about, by line"""
     with Folder() as f:
         for text in (rows(";", ","), rows("\t", ","), rows("\t"), rows("|"), rows(" "), rows(" ", ","), rows(";", ",").replace("412,5", "+412,50"),
                      rows().replace("412.5", '"412,5"').replace("398.2", '"398,2"').replace("345.9", '"345,9"').replace("330.1", '"330,1"')
@@ -163,14 +163,14 @@ def test_numbers():
 
 
 def test_open_numbers_without_a_head():
-    """A table without a head whose numbers can be read in two ways is one, and the numbers are asked about"""
+    """A table without a head and with ambiguous numbers is accepted, and the numbers are asked about"""
     with Folder() as f:
         expect_refused(f, "p.csv", "0;1.412\n40;1.371\n90;1.326\n", [":1:3: '1.412' can be read in two ways", "2 more"])
         expect_read(f, "p.csv", "0;1412\n40;1.371,5\n90;1.326\n", [[0, 1412], [40, 1371.5], [90, 1326]], ["no head"])
 
 
 def test_no_data():
-    """Heights that stand for no data, and heights that only an error of the terrain model has, are refused by line"""
+    """Heights that mean no data, or result from an error of the terrain model, are refused by line"""
     with Folder() as f:
         for value in ("-9999", "-32768", "-99999", "-10000", "3.4e38", "-3.40282346638529e+38", "-9999.0", "\u22129999"):
             expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("371", value), [":4:4: ", "marks missing data"])
@@ -189,7 +189,7 @@ def line(to_east, to_north, points=POINTS):
 
 
 def test_map():
-    """A line on the map: metres are taken, Web Mercator, degrees, turns and loops are named; Gauss-Boaga is no Mercator"""
+    """A line on the map: metres are accepted, Web Mercator, degrees, turns and loops reported; Gauss-Boaga is not Mercator"""
     with Folder() as f:
         for east, north in ((600000, 4870000), (1680000, 4850000), (2350000, 4700000), (2600000, 1200000), (950000, 6500000), (0, 0)):
             expect_read(f, "p.csv", line(lambda x: east + 0.6 * x, lambda x: north - 0.8 * x), POINTS, ["columns x, y, z"])
@@ -212,7 +212,7 @@ def check_text(f, text):
 
 
 def test_several_lines():
-    """Several lines in one file, by a column, by where distances begin anew, by WKT: named, and chosen by slope.layer"""
+    """Several lines in one file, by a column, by restarting distances, by WKT: named, and chosen by slope.layer"""
     other = "0,90\n60,30\n100,0\n"
     with Folder() as f:
         twice = "distance,elevation\n" + rows() + other
@@ -230,7 +230,7 @@ def test_several_lines():
 
 
 def test_walls():
-    """Repeated points go, vertical steps become walls of 0.01 m, overhangs their outer envelope; what only runs backward is refused"""
+    """Repeated points are dropped, vertical steps become walls of 0.01 m, overhangs their envelope; backward lines are refused"""
     with Folder() as f:
         expect_read(f, "p.csv", "x,z\n0,50\n0,50\n20,40\n20,30\n60,10\n60,8\n90,0\n",
                     [[0, 50], [20, 40], [20.01, 30], [60, 10], [60.01, 8], [90, 0]], ["1 repeated point", "2 vertical steps, the first at 20 m"])

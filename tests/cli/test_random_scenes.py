@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow full
-"""Random scenes, made from the table of parameters and at its edges too, through the whole program: page, CSV and JSON hold
-the same figures, and the figures hold together.
+"""Random scenes from the table of parameters, also at its limits, through the whole program: page, CSV and JSON have equal and
+consistent figures.
 
-SCENES=10000 runs so many (250 without it, with FULL 500), FIRST=500 begins with that one. SCENE=123 runs that one alone and prints its files; a
-scene that fails is kept where the failure says.
+SCENES=10000 sets the number (default 250, with FULL 500), FIRST=500 the first one. SCENE=123 runs one scene and prints its
+files; a failing scene is kept in the folder that the failure names.
 """
 import csv
 import functools
@@ -34,11 +34,11 @@ from runs import is_formula  # noqa: E402
 
 SCENES = int(os.environ.get("SCENES") or (500 if os.environ.get("FULL") else 250))
 FIRST = int(os.environ.get("FIRST") or 0)
-CHUNK = 25         # scenes of one call of the program
-SECONDS = 60       # of processor time for a call, which takes one to three; so far beyond that it hangs on any machine
+CHUNK = 25         # scenes per call of the program
+SECONDS = 60       # processor seconds per call, which takes one to three; beyond this it hangs on any machine
 MEMORY = 2 << 30   # bytes
-WORK = 100_000     # contacts and stems of all rocks of a scene, about; ten times as many are too many
-ACCEPTED = 0.6     # at least this share of the scenes must be good
+WORK = 100_000     # approximate contacts and stems of all rocks of a scene; ten times more are too many
+ACCEPTED = 0.6     # minimum share of valid scenes
 PROCESSES = 2
 KEPT = Path(os.environ.get("BUILD") or tempfile.gettempdir()).resolve() / "random-scenes"
 
@@ -66,8 +66,8 @@ def table_of_parameters():
 
 
 def kinds_of_pictures():
-    """As the program names them where it knows none of that name; those of uncertainty
-    and of a whole rotation take up to thousands of runs of a scene."""
+    """Return the names from the program's message about an unknown picture, except those of uncertainty and of a rotation,
+    which take up to thousands of runs."""
     said = ceduo("--plot", "-", "paper-site").err
     return [kind for kind in re.search(r"one of: (.*)", said)[1].split(", ") if kind not in ("uncertainty", "tradeoff")]
 
@@ -89,7 +89,7 @@ def expect_rising(values, what):
 
 
 def difference(found, wanted, path=""):
-    """Where two values of JSON begin to differ; None: nowhere."""
+    """Return where two JSON values begin to differ; None: nowhere."""
     if isinstance(found, dict) and isinstance(wanted, dict) and found.keys() == wanted.keys():
         pairs = [(f"{path}.{key}", found[key], wanted[key]) for key in found]
     elif isinstance(found, list) and isinstance(wanted, list) and len(found) == len(wanted):
@@ -105,7 +105,7 @@ def expect_same(found, wanted, what):
 
 
 def expect_no_words(text, what):
-    """No 'inf' and no 'nan' where a number should stand; names of scenes hold neither."""
+    """Expect no 'inf' and no 'nan' as a number; names of scenes contain neither."""
     found = NO_NUMBER.search(text)
     expect(not found, f"{what}: {found and text[max(0, found.start() - 60):found.end() + 40]!r}")
 
@@ -118,7 +118,7 @@ def strings(value):
             yield from strings(item)
 
 
-# ---- what a scene is, worked out from its files' values ----
+# ---- properties of a scene, computed from its files ----
 
 def mean_of(value):
     return value["mean"] if isinstance(value, dict) else value
@@ -144,7 +144,7 @@ def mean_diameter(rock):
 
 
 def ground_at(case, x, within=0):
-    """The lowest ground about x: the x of a control is known to its last bits only."""
+    """Return the lowest ground near x: the x of a control is exact only to its last bits."""
     xs, zs = case.xs, case.zs
     slack = 8 * EPSILON * max(abs(xs[0]), abs(xs[-1])) + within
     lowest = math.inf
@@ -158,18 +158,18 @@ def ground_at(case, x, within=0):
 
 
 def most_energy(case, result, x):
-    """J that a rock can have at x at the most: what it had at its release, and its fall. NaN where rocks differ."""
+    """Return the maximum energy (J) of a rock at x: its release energy and its fall. NaN if rocks differ."""
     scene = case.scene
     release = scene.get("release", {})
     turns = result["law"] == "arm" and mean_of(release.get("spin_rad_s", 0)) != 0  # each with the moment of its own section
-    if varies(scene["rock"]) or varies(release) or turns or case.xs[-1] - case.xs[0] < 1e-290:  # below that few bits are left of an x
+    if varies(scene["rock"]) or varies(release) or turns or case.xs[-1] - case.xs[0] < 1e-290:  # few bits of an x remain
         return math.nan
     mean = {key: mean_of(value) for key, value in release.items() if key.endswith(("_m", "_s"))}
     speed2 = mean.get("vx_m_s", 0) ** 2 + mean.get("vz_m_s", 0) ** 2
     rock, gravity = result["rock"], scene["simulation"].get("gravity_m_s2", 9.81)
     spin = mean.get("spin_rad_s", 0) if result["law"] != "lumped" else 0
     start = max(ground_at(case, case.start), highest_ground_at(case, case.start)) + mean.get("height_m", 0)
-    off = case.tolerance  # each point of the simplified profile lies so near one of the profile; the release lies on both
+    off = case.tolerance  # each point of the simplified profile lies near one of the profile; the release lies on both
     fall = start - ground_at(case, x, off) + off
     room = 1e-9 * (abs(start) + abs(fall)) * gravity
     return rock["mass_kg"] * (speed2 / 2 + gravity * fall + room) + rock["moment_kg_m2"] * spin ** 2 / 2
@@ -182,7 +182,7 @@ def highest_ground_at(case, x):
 
 
 def check_slope(case, slope):
-    """Which points are left out of the profile; between grounds and at the release more may stand."""
+    """Check the points dropped from the profile; between grounds and at the release more may remain."""
     expect_equal((slope["points"], slope["tolerance_m"]), (len(case.xs), case.tolerance), "points, tolerance_m")
     expect(slope["used"] >= (2 if case.tolerance > 0 else slope["points"]), slope)
 
@@ -201,7 +201,7 @@ def check_distribution(d, reached, what):
     if reached < 2:
         expect(d["sd"] is None and d["se"] is None, f"{what} of one rock: {d}")
         return
-    most = d["max"] / 2 * math.sqrt(reached / (reached - 1))  # half lie at 0, half at the largest
+    most = d["max"] / 2 * math.sqrt(reached / (reached - 1))  # half at 0, half at the maximum
     expect(0 <= d["sd"] <= most * (1 + 1e-9), f"{what}: sd {d['sd']!r}, max {d['max']!r}")
     expect_close(d["se"], d["sd"] / math.sqrt(reached), f"{what}: se")
 
@@ -211,7 +211,7 @@ def check_share(p, lo, hi, what):
 
 
 def check_energy(case, result, a, control, what):
-    """Energies against speeds and against the fall."""
+    """Compare energies with speeds and with the fall."""
     energy, translation, speed = a["energy_kJ"], a["translation_kJ"], a["speed_m_s"]
     reached, mass = a["rocks_reached"], result["rock"]["mass_kg"]
     for key in ("mean", *STATISTICS):
@@ -228,7 +228,7 @@ def check_energy(case, result, a, control, what):
 
 
 def check_weighted(a, accepted, what):
-    """Rocks of many sizes count by their weights: their errors are checked where the weights are."""
+    """Rocks of many sizes count by their weights: errors are checked with the weights."""
     check_share(a["reach_probability"], a["reach_lo"], a["reach_hi"], f"{what}: reach")
     if accepted is not None:
         check_share(a["exceed_probability"], a["exceed_lo"], a["exceed_hi"], f"{what}: exceed")
@@ -274,7 +274,7 @@ def check_index(result, control, what):
     if mean is None:
         expect(index["residual_kJ"] is None and index["exhausted"] is None, f"{what}: index {index}")
         return
-    if max(mean, index["dissipated_kJ"]) > 0:  # in kJ the least energies are rounded to 0
+    if max(mean, index["dissipated_kJ"]) > 0:  # in kJ the smallest energies round to 0
         expect_equal(index["exhausted"], mean < index["dissipated_kJ"], f"{what}: exhausted, {mean!r} {index}")
     left = max(0, mean - index["dissipated_kJ"])
     expect(near(index["residual_kJ"], left, absolute=1e-12 * mean + 1e-290), f"{what}: residual {index}, mean {mean!r}")
@@ -289,13 +289,13 @@ def check_lights(control, what):
 
 
 def check_controls(case, result, controls, stems, what):
-    """`stems`: whether any stand on the way."""
+    """`stems`: True if any stand before the control."""
     given = case.scene.get("controls") or [{"x_m": x} for x in case.scene["controls_m"]]
     expect_equal([c["x_m"] for c in controls], [g["x_m"] for g in given], f"{what}: places")
     for g, c in zip(given, controls):
         here = f"{what}, at {c['x_m']!r} m"
         expect_equal(c["name"], g.get("name"), here)
-        if "accepted_kJ" in g:  # in J between, which may cost its last bit
+        if "accepted_kJ" in g:  # in J between, which may lose its last bit
             expect_close(c["accepted_kJ"], g["accepted_kJ"], f"{here}: accepted_kJ", relative=EPSILON)
         else:
             expect_equal(c["accepted_kJ"], None, f"{here}: accepted_kJ")
@@ -321,7 +321,7 @@ def check_controls(case, result, controls, stems, what):
 # ---- JSON: stands ----
 
 def with_per_ha(stand):
-    """A stand whose shoots are given per hectare, as those on its stools are, and diameters in m."""
+    """Return a stand with shoots per hectare instead of per stool, and diameters in m."""
     return {**stand, **{key: [{"per_ha": s.get("per_stool", 0) * stand.get("stools", {}).get("per_ha", 0),
                                "dbh_m": s.get("dbh_cm", 0) / 100, "dbh_sd_m": s.get("dbh_sd_cm", 0) / 100, **s} for s in stand[key]]
                          for key in ("shoots", "trees") if key in stand}}
@@ -344,13 +344,13 @@ def is_met(s):
 
 
 def expect_width(found, sum_of_widths, what):
-    """An ADC, m, from the sum of widths per hectare."""
+    """Expect an ADC, m, to follow from the sum of widths per hectare."""
     adc = 1e4 / sum_of_widths if sum_of_widths > 0 else math.inf
     expect(found is None if math.isinf(adc) else near(found, adc), f"{what}: found {found!r}, wanted {adc!r}")
 
 
 def low_width(stand, b):
-    """Of stumps and logs, m per hectare; and what they take, kJ m per hectare."""
+    """Return the width of stumps and logs, m per hectare, and their energy, kJ m per hectare."""
     stumps, logs = stand.get("stumps", {"per_ha": 0}), stand.get("logs", {"per_ha": 0})
     widths = [(stumps["per_ha"] * (b + stumps.get("diameter_m", 0)), stumps.get("energy_kJ", 0)),
               (logs["per_ha"] * (b + 2 * logs.get("length_m", 0) / math.pi), logs.get("energy_kJ", 0))]
@@ -381,7 +381,7 @@ def check_adc(stand, s, b, least, what):
 
 
 def check_own_stand(stand, s, b, least, what):
-    """The figures of a stand as filed, from its file."""
+    """Check the figures of a stand as in its file."""
     stems = stems_of(stand)
     expect_close(s["stems_per_ha"], sum(t["per_ha"] for t in stems), f"{what}: stems_per_ha")
     expect_close(s["trees_per_ha"], sum(t["per_ha"] for t in stand.get("trees", [])), f"{what}: trees_per_ha")
@@ -395,7 +395,7 @@ def check_own_stand(stand, s, b, least, what):
 
 
 def check_stand(result, s, what):
-    """How the figures of a stand hang together."""
+    """Check that the figures of a stand are consistent."""
     adc, threshold = s["adc"], result["threshold_m"]
     expect(s["length_m"] > 0, f"{what}: length {s['length_m']!r}")
     for key in ("stems_per_ha", "stools_per_ha", "trees_per_ha", "basal_area_m2_ha", "contacts", "dissipated_kJ"):
@@ -406,13 +406,13 @@ def check_stand(result, s, what):
                f"{what}: bare: {s}")
         expect_equal((s["contacts"], s["dissipated_kJ"], s["free_run_probability"]), (0, 0, 1), f"{what}: bare")
         return
-    if adc["rule"] is None:  # none of its stems counts
+    if adc["rule"] is None:  # no stem counts
         expect(all(v is None for v in adc.values()), f"{what}: {adc}")
     else:
         expect_equal(adc["adc_m"], adc[adc["rule"].replace("-", "_") + "_m"], f"{what}: the rule's ADC")
     passes = (math.inf if adc["adc_m"] is None else adc["adc_m"]) < threshold
     free = math.exp(-threshold / adc["crofton_m"]) if adc["crofton_m"] is not None else 1
-    if has_low(s) or s["grouped_per_ha"] > 0:  # less counts than the ADC is of, or more together
+    if has_low(s) or s["grouped_per_ha"] > 0:  # fewer count than in the ADC, or more together
         expect(passes or not s["passes_threshold"], f"{what}: passes with fewer stems")
         expect(s["free_run_probability"] >= free * (1 - 1e-7), f"{what}: free_run_probability of fewer stems")
     else:
@@ -435,7 +435,7 @@ def check_stands(case, result, stands, wholes, what):
 
 
 def check_summary(case, result, stands, summary, what):
-    """Sums over the belts between release and last control."""
+    """Check sums over the belts between release and last control."""
     last = max(c["x_m"] for c in result["options"][0]["controls"])
     slack = 16 * EPSILON * max(abs(case.xs[0]), abs(case.xs[-1]))
     length = contacts = dissipated = 0
@@ -452,7 +452,7 @@ def check_summary(case, result, stands, summary, what):
         contacts += s["contacts"] * share
         dissipated = None if None in (dissipated, s["dissipated_kJ"]) else dissipated + s["dissipated_kJ"] * share
         nothing += (b - a) / s["adc"]["crofton_m"] if s["adc"]["crofton_m"] is not None else 0
-    if clear:  # nothing hangs on the last bits of a survey's coordinates
+    if clear:  # not sensitive to the last bits of survey coordinates
         for key, wanted in (("length_m", length), ("contacts", contacts), ("dissipated_kJ", dissipated)):
             if wanted is None:
                 expect_equal(summary[key], None, f"{what}: {key} of the summary")
@@ -482,7 +482,7 @@ def check_ends(case, result, option, what):
     ends, stop, n = option["ends"], option["stop_x_m"], result["rocks"]
     shares = [ends[key] for key in ("stopped_by_stems", "came_to_rest", "left_slope")]
     expect(all(0 <= s <= 1 for s in shares) and 0 <= ends["unfinished"] <= n, f"{what}: {ends}")
-    if "blocks" not in case.scene or ends["unfinished"] == 0:  # there a rock counts by its weight
+    if "blocks" not in case.scene or ends["unfinished"] == 0:  # here a rock counts by its weight
         expect_close(sum(shares) + ends["unfinished"] / n, 1, f"{what}: ends {ends}", relative=1e-12)
     expect_equal(stop is None, shares[0] + shares[1] == 0, f"{what}: stop_x_m {stop}, ends {ends}")
     if ends["unfinished"] == n:
@@ -534,13 +534,13 @@ def check_differences(result):
 
 
 def unfinished_of(result):
-    """As a warning says it."""
+    """Return the number as in the warning."""
     said = [re.match(r"(\d+) rocks? .* counts? as unfinished", w) for w in result["warnings"]]
     return sum(int(m[1]) for m in said if m)
 
 
 def check_result(case, result, rocks):
-    """Everything that must hold in the JSON of a scene."""
+    """Check all rules for the JSON of a scene."""
     for text in strings(result):
         expect_no_words(text, "a string in JSON")
     scene = case.scene
@@ -608,7 +608,7 @@ def check_years(case, result, plain):
 # ---- CSV ----
 
 def rows_of(text, what):
-    """One header, and as many cells in each row."""
+    """Return rows with one header and the same number of cells each."""
     rows = list(csv.reader(io.StringIO(text, newline=""), strict=True))
     expect(rows, f"{what}: no header")
     header, *others = rows
@@ -625,7 +625,7 @@ def keys_of(path):
 
 
 def look_up(value, path):
-    """What stands at a path of JSON; None where something on the way is null or not there."""
+    """Return the value at a path of JSON; None if part of it is null or missing."""
     for key in keys_of(path):
         if isinstance(value, list):
             value = value[int(key)]
@@ -648,7 +648,7 @@ def expect_cell(cell, value, what):
 
 
 def compare_row(row, parts, skip, what):
-    """A row of CSV with the parts of JSON that hold its columns, the first that has one before the others."""
+    """Compare a CSV row with the JSON objects of its columns; the first object with the column counts."""
     for name, cell in row.items():
         group = keys_of(name)[0]
         if group in skip:
@@ -710,7 +710,7 @@ def of_1000(a, key):
 
 
 def expect_shown(cell, value, what):
-    """A figure on the page is the value rounded to the places that are shown."""
+    """Expect a figure on the page to be the value rounded to its decimals."""
     if value is None:
         expect_equal(cell, "-", what)
         return
@@ -746,7 +746,7 @@ def check_page(case, lines, result):
     often = next((i for i, line in enumerate(lines) if line.startswith("How often, ")), len(lines))
     tables = iter(arrivals_of("\n".join(lines[:often])))
     verdicts = iter([m for m in map(VERDICT.match, lines) if m])
-    several = len(result["options"]) > 1  # what arrives without forest stands once, before them
+    several = len(result["options"]) > 1  # arrivals without forest come once, before them
     bare = [{"name": "", "controls": result["options"][0]["controls"]}] if several else []
     for i, option in enumerate(bare + result["options"]):
         for c in option["controls"]:
@@ -758,7 +758,7 @@ def check_page(case, lines, result):
                 expect(c[side] and (not several or alone == (side == "bare")), f"{what}: figures of {side}")
                 check_rows(rows, c[side], f"{what}, {side}")
             for light, key in () if alone else (("Contact", "contact"), ("Free run", "free_run"), ("Energy", "energy")):
-                if c["verdict"]["answer"] == "nothing": # said once, at the head of the page
+                if c["verdict"]["answer"] == "nothing": # once, at the head of the page
                     expect_equal(c["lights"][key], "unknown", what)
                     continue
                 verdict = next(verdicts, None)
@@ -767,7 +767,7 @@ def check_page(case, lines, result):
 
 
 def pages(text):
-    """The lines of each scene's page, by number."""
+    """Return the lines of each scene's page, by number."""
     found, number = {}, None
     for line in text.splitlines():
         match = re.match(r"random scene (\d+)( |$)", line)
@@ -782,7 +782,7 @@ PROBLEM = re.compile(r"(?:\S*/)?s(\d+)[-\w]*\.(?:yaml|csv):(\d+):(\d+): (.+)")
 
 
 def refusals(err):
-    """What is said of each scene, by number; every line is such a message, a line of a source, or what ends a list."""
+    """Return the messages of each scene, by number; every line is a message, a source line, or the end of a list."""
     found, lines = {}, iter(err.splitlines())
     for line in lines:
         match = PROBLEM.match(line)
@@ -801,10 +801,10 @@ def check_refusal(case, said):
     expect(any(case.key in line for line in said), f"{case.broken}, but no message names {case.key}:", *said)
 
 
-# ---- a fit to what was seen ----
+# ---- a fit to observations ----
 
-FIT = ("simulation.gravity_m_s2", 9, 10.5)  # a value that every scene has
-FIT_ROCKS, FIT_WORK = 20, 30                # a scene is simulated thousands of times: only where a rock is little work
+FIT = ("simulation.gravity_m_s2", 9, 10.5)  # a value of every scene
+FIT_ROCKS, FIT_WORK = 20, 30                # a scene is simulated thousands of times: only with cheap rocks
 
 
 def check_fit(case, fit):
@@ -822,21 +822,21 @@ def check_fit(case, fit):
 
 # ---- a chunk of scenes ----
 
-SHORT_PAGES = 3  # of a chunk: with their uncertainty they are hundreds of scenes
+SHORT_PAGES = 3  # per chunk: with uncertainty they are hundreds of scenes
 
 
 def without_sum(err):
-    """What is wrong with the scenes, without what is only said of several: which one it is, and how many failed."""
+    """Return the messages of the scenes, without scene names and the count of failures."""
     return re.sub(r"^ceduo: \d+ of \d+ failed: .*\n|^.*: this scene cannot be computed:\n", "", without_unusual(err), flags=re.M)
 
 
 class Chunk:
-    """Scenes that are run together. What fails is found by running each alone."""
+    """Scenes that run together. A failure is located by running each alone."""
 
     def __init__(self, table, kinds, indices):
         self.table, self.kinds = table, kinds
         self.cases = {i: random_scenes.make(table, i) for i in indices}
-        self.failures = {}  # scene: why
+        self.failures = {}  # scene: reason
         self.count = Counter()
         self.used, self.words, self.ends = set(), set(), set()
 
@@ -849,7 +849,7 @@ class Chunk:
             function(*arguments)
         except Failure as failure:
             self.fail(i, failure)
-        except Exception:  # figures that a check cannot compute with
+        except Exception:  # figures that a check cannot use
             self.fail(i, "the check breaks off:\n" + traceback.format_exc())
 
     def write(self):
@@ -859,8 +859,8 @@ class Chunk:
                 self.folder.write(name, text)
 
     def call(self, *arguments, of=None):
-        """One call for all scenes, or those of a set: [(the result, the scenes that it is of)]. Where it fails, one for each half,
-        down to the scene that makes it fail."""
+        """Call the program for all scenes, or for some: [(result, its scenes)]. After a failure split in halves, down to the
+        scene that causes it."""
         return self.halves(arguments, [i for i in self.cases if of is None or i in of])
 
     def halves(self, arguments, indices):
@@ -876,7 +876,7 @@ class Chunk:
             return self.halves(arguments, indices[:half]) + self.halves(arguments, indices[half:])
 
     def results(self, *arguments, of=None):
-        """Calls, and the JSON of each scene."""
+        """Return the calls, and the JSON of each scene."""
         calls, found = self.call("--batch", "-f", "json", "--details", *arguments, of=of), {}
         for done, _ in calls:
             for line in done.out.splitlines():
@@ -890,10 +890,10 @@ class Chunk:
             bad = any(unfinished_of(results[i]) * 1000 > results[i]["rocks"] for i in indices if i in results)
             expect_equal(done.status, INPUT if any(i in refused for i in indices) else RUN if bad else DONE, f"status of {done}")
 
-    # ---- one after the other ----
+    # ---- one by one ----
 
     def first_rocks(self):
-        """One rock of each scene: which are refused, and how much work a rock is."""
+        """Simulate one rock per scene: return refused scenes, and the work per rock."""
         calls, results = self.results("-n", 1)
         err = without_sum("".join(done.err for done, _ in calls))
         said = refusals(err)
@@ -914,7 +914,7 @@ class Chunk:
         self.choose_rocks(results, WORK)
 
     def choose_rocks(self, results, most):
-        """Fewer rocks where they were more work than the most; which scenes that changes."""
+        """Reduce the rocks of scenes above the work limit; return the changed scenes."""
         changed = []
         for i, case in self.cases.items():
             work, rocks = results[i]["work"], results[i]["rocks"]
@@ -927,7 +927,7 @@ class Chunk:
         return changed
 
     def all_rocks(self):
-        """JSON of all rocks, once more with fewer where the first rock was the easiest."""
+        """Return JSON for all rocks, repeated with fewer if the first rock was the cheapest."""
         results, of = {}, None
         while of is None or of:
             calls, some = self.results(of=of)
@@ -974,7 +974,7 @@ class Chunk:
             self.count["pictures"] += 1
 
     def fitted(self, i, result):
-        """A fit to what was seen: its JSON and its page hold together."""
+        """Fit to observations: its JSON and its page are consistent."""
         case = self.cases[i]
         _, tried = self.results("-s", f"{FIT[0]}={sum(FIT[1:]) / 2}", "-n", FIT_ROCKS, of={i})
         if any(r["work"]["contacts"] + r["work"]["stems_drawn"] > FIT_WORK * r["rocks"] for r in (result, tried[i])):
@@ -998,7 +998,7 @@ class Chunk:
         self.check(i, check_years, case, found, plain)
         if i in self.cases:
             self.in_csv({i: found}, *orders, years=True, of={i})
-        dense = found["work"]["stems_drawn"] > 1000 * found["rocks"]  # hundreds of scenes of such rocks would take minutes
+        dense = found["work"]["stems_drawn"] > 1000 * found["rocks"]  # hundreds of scenes with such rocks would take minutes
         for done, _ in self.call("--batch", *orders, *(["-s", "uncertainty=none"] if dense else []), of={i}):
             self.check(i, check_lines, done.out.splitlines(), 80, "the page of the years")
         self.count["years"] += 1
@@ -1022,7 +1022,7 @@ class Chunk:
                 self.fitted(i, results[i])
 
     def work(self):
-        """Raises what cannot be laid to one scene."""
+        """Raise a failure that belongs to no single scene."""
         indices = list(self.cases)
         self.count["scenes"] += len(indices)
         with Folder() as self.folder:
@@ -1036,7 +1036,7 @@ class Chunk:
             self.keep()
 
     def keep(self):
-        """Files of the scenes that failed."""
+        """Keep the files of failed scenes."""
         for i, why in self.failures.items():
             to = KEPT / f"scene-{i}"
             shutil.rmtree(to, ignore_errors=True)
@@ -1046,7 +1046,7 @@ class Chunk:
             (to / "why.txt").write_text(why, encoding="utf-8")
 
 
-TABLE = KINDS_OF_PICTURES = None  # in each process
+TABLE = KINDS_OF_PICTURES = None  # per process
 
 
 def begin(table, kinds):
@@ -1055,7 +1055,7 @@ def begin(table, kinds):
 
 
 def work_on(indices):
-    """What a chunk came to, as plain values."""
+    """Return the results of a chunk as plain values."""
     chunk = Chunk(TABLE, KINDS_OF_PICTURES, indices)
     try:
         chunk.work()
@@ -1085,7 +1085,7 @@ def report(failures, indices):
 
 
 def expect_covered(table, used, words):
-    """What the table has stands in some scene that was computed, but for what no figure of a run depends on."""
+    """Expect every parameter of the table in some computed scene, except those that affect no figure of a run."""
     rows = {path: p for path, p in table.rows.items() if not path.startswith(random_scenes.BESIDE)}
     missing = sorted(path for path, p in rows.items() if path not in used and p.kind not in ("file", "points"))
     expect(not missing, "in no scene:", *missing)

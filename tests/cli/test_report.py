@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--report: one HTML file that is well formed, needs nothing from elsewhere, and is the same each time."""
+"""--report: one well-formed HTML file without external resources, reproducible."""
 import html
 import json
 import math
@@ -24,7 +24,7 @@ ODD = "Forst <b>&amp; \"Fels\" 'x' \u00e8 \u2264 </title><script>alert(1)</scrip
 
 
 class Page(HTMLParser):
-    """Elements as they nest, their ids and attributes, the text of each kind."""
+    """Elements and their nesting, their ids and attributes, the text of each kind."""
 
     def __init__(self, text):
         super().__init__(convert_charrefs=True)
@@ -92,7 +92,7 @@ def test_structure():
 
 
 def test_same_bytes():
-    """The same input gives the same bytes, whatever the threads, the locale and the name of the file"""
+    """Equal input gives equal bytes, for any threads, locale and file name"""
     first, _ = report("paper-site")
     with Folder() as f:
         good("--report", f.path / "page.html", *FEW[:-2], "-j", 1, "paper-site", env={"LC_ALL": "C"})
@@ -100,7 +100,7 @@ def test_same_bytes():
 
 
 def test_command():
-    """The command on the page gives the same page"""
+    """The command on the page reproduces the page"""
     first, page = report("-s", "title=It's 'so' $HOME", "--option", "large reserves", "four-systems", few=UNCERTAINTY)
     command = page.text["pre"].split("ceduo: scene/1")[0]
     shell = command.replace("ceduo --report report.html", '"$CEDUO" --report -', 1)
@@ -111,7 +111,7 @@ def test_command():
 
 
 def test_scene_text():
-    """The scene stands on the page as text that can be read again and is the same scene"""
+    """The page contains the scene as text that reads back as the same scene"""
     with Folder() as f:
         for name in ("scenes", "slopes", "stands"):
             shutil.copytree(PROFILES / name, f.path / name)
@@ -124,7 +124,7 @@ def test_scene_text():
 
 
 def test_answer():
-    """The answer has the figures of the batch run, with the error of the rocks and the uncertainty"""
+    """The answer has the figures of the batch run, with sampling error and uncertainty"""
     run = good("-b", "-f", "json", *UNCERTAINTY[:4], "paper-site").json()[0]
     wooded = run["options"][0]["controls"][0]["wooded"]
     _, page = report("paper-site", few=UNCERTAINTY)
@@ -134,7 +134,7 @@ def test_answer():
     lo, hi = math.floor(1000 * wooded["exceed_lo"]), math.ceil(1000 * wooded["exceed_hi"])
     expect(re.search(rf"Sampling error \(\d+ rocks\): {lo}–{hi}\. Uncertain inputs: \d+–\d+\.", page.text["dl"]), page.text["dl"])
     expect_in("Uncertainty was not computed: the scene has 'uncertainty: none'.", report("-s", "uncertainty=none", "paper-site")[1].text["dl"])
-    few = ("--years=1:2", "--option", "simple coppice", "--option", "selection coppice", "-n", 32)  # within the bound of a page
+    few = ("--years=1:2", "--option", "simple coppice", "--option", "selection coppice", "-n", 32)  # within the limit of a page
     sure = re.search(r"HOW SURE .*?(Over the years .*?) ASSUMED", " ".join(good("-b", *few, "rotation").out.split()))[1]
     expect_in(sure, " ".join(report("rotation", few=few)[1].text["dl"].split()), "the same as the page")
     expect_in("by the index ", report("-s", "simulation.contact_model=index", "paper-site")[1].text["div"])
@@ -147,7 +147,7 @@ STAYS = "{name: stays, trees: [{per_ha: 300, dbh_m: 0.2, height_m: 12}], energy:
 
 
 def uncertain(f, cut, kept):
-    """Two options of one wood on the paper's slope, in doubt of what stems take."""
+    """Return two options of one forest on the paper's slope, with uncertain energy per stem."""
     stand = "  - {{name: {}, forest: [{{from_m: 10, to_m: 60, stand: {}}}]}}\n"
     return f.write("turn.yaml", "ceduo: scene/1\ntitle: A turn\nrock: {shape: sphere, diameter_m: 0.5, density_kg_m3: 2600}\n"
                    "release: {x_m: 1, vx_m_s: 3}\nslope: {vertices_m: [[0, 80], [100, 0]], segments: [{rn: 0.35, rt: 0.85}]}\n"
@@ -157,8 +157,8 @@ def uncertain(f, cut, kept):
 
 
 def test_rotation():
-    """Of a scene with a rotation the uncertainty of its mean is said without being asked for, of each option and of the difference,
-    and the order is that over the years, as on the short page"""
+    """A scene with a rotation reports the uncertainty of its mean, per option and of the difference, and orders as the short
+    page"""
     with Folder() as f:
         scene = uncertain(f, GROWS, STAYS)
         words = " ".join(report(scene, few=("--sensitivity=256",))[1].text["body"].split())
@@ -170,7 +170,7 @@ def test_rotation():
     for row in (first, second):
         expect(re.search(rf"{row['option']} \d+ \d+–\d+ {1000 * row['uncertainty']['p5']:.0f}–{1000 * row['uncertainty']['p95']:.0f}", words), row, words)
     ends = next((row["uncertainty"]["p5"], row["uncertainty"]["p95"]) for row in rows if row["against"])
-    ends = ends if first["option"] == "kept" else (-ends[1], -ends[0])  # of the better one less the other
+    ends = ends if first["option"] == "kept" else (-ends[1], -ends[0])  # better minus worse
     order = figures["ranking"][0]
     said = f"Over the years {order['better']} beats {order['than']} in {100 * order['probability']:.0f} % of plausible cases"
     expect_in(said, words)
@@ -181,7 +181,7 @@ def test_rotation():
 
 
 def test_one_figure():
-    """The table of the uncertainty has the figures of the run, where that has more rocks, and says of how many its error is"""
+    """The table of uncertainty has the figures of the run, if that has more rocks, and names the number of rocks of its error"""
     run = ("-n", 1500, "-s", UNCERTAINTY[3], "four-systems")
     options = good("-b", "-f", "json", *run).json()[0]["options"]
     text, _ = report("--sensitivity=20", *run, few=())
@@ -195,7 +195,7 @@ def test_one_figure():
 
 
 def test_odd_titles():
-    """Titles and names with signs of HTML stay what they are; control characters become visible"""
+    """Titles and names with HTML characters stay intact; control characters become visible"""
     _, page = report("-s", 'title="' + ODD.replace('"', '\\"') + '"', "paper-site")
     expect(page.text["title"].startswith(ODD), page.text["title"])
     expect_in(ODD, page.text["h1"])
@@ -210,8 +210,7 @@ HEAD = {"place": "Serra <b>", "owner": "Comune di 'Serra'", "parcel": "12 & 14/b
 
 
 def test_head():
-    """The head holds what the scene says for it, escaped, and always a line to sign; what is not said is left out, but for the
-    date, which has a line of its own"""
+    """The head has the scene's entries, escaped, and always a line to sign; missing entries are omitted, except for the date"""
     lines = re.compile(r'<dl class="head">(.*?)</dl>', re.S)
     text, page = report("-s", "page=" + json.dumps(HEAD), "paper-site")
     check_page(text, page)
@@ -229,15 +228,14 @@ def test_head():
 
 
 def contrast(colour, opacity=1.0):
-    """Of a colour on white paper, as WCAG has it, where a printer makes it grey"""
+    """Return the contrast of a colour on white paper by WCAG, printed in grey"""
     parts = [(opacity * int(colour[i:i + 2], 16) + (1 - opacity) * 255) / 255 for i in (1, 3, 5)]
     linear = [v / 12.92 if v <= .04045 else ((v + .055) / 1.055) ** 2.4 for v in parts]
     return 1.05 / (.2126 * linear[0] + .7152 * linear[1] + .0722 * linear[2] + .05)
 
 
 def test_trajectories():
-    """The trajectories are drawn on the slope and, each by itself, as heights above the ground; no line is too pale or too thin for
-    a black and white printer"""
+    """Trajectories are drawn on the slope, and separately as heights above ground; every line prints well in black and white"""
     text, page = report("paper-site", few=("-n", 200, "-s", "uncertainty=none"))
     titles = re.findall(r"<figcaption>(.*?)</figcaption>", text)
     pictures = dict(zip(titles, re.findall(r"<svg.*?</svg>", text, re.S), strict=True))
@@ -254,14 +252,13 @@ def test_trajectories():
 
 
 def test_other_sizes():
-    """Blocks of other sizes are shown of a scene with one option; of several it would be a table of the first alone"""
+    """Blocks of other sizes are shown for a scene with one option; with several it would be the first one's table"""
     expect_in("Blocks of other sizes", report("paper-site")[0])
     expect("Blocks of other sizes" not in report("four-systems")[0], "sizes of one option among four")
 
 
 def test_whole_tables():
-    """What is through the forest and what is without stands in one piece of paper, heads come again where a table is longer than a
-    sheet"""
+    """Tables with and without forest stay on one sheet; longer tables repeat their heads"""
     text, _ = report("paper-site")
     pair = re.search(r'<div class="pair">(.*?)</div>', text, re.S)[1]
     expect(pair.count("<table>") >= 2 and "forest, " in pair and "without, " in pair, pair)
@@ -271,13 +268,13 @@ def test_whole_tables():
         expect(re.search(rule, style), rule)
 
 
-# heads that are short where there is no room, by language; of the first table that has them what stands above which column
+# short heads of narrow columns, by language; titles above columns in the first table with them
 BRIEF = {"en": {"to first", "m3/y", "m3/ha", "left kJ", "wide m", "mean kJ", "ADC m", "worst", "fail C", "fail F", "rotation"},
          "it": {"vs prima", "m3/a", "m3/ha", "resta kJ", "largo m", "kJ medi", "ADC m", "pegg.", "neg. C", "neg. L", "turno", "libera"}}
 
 
 def test_heads():
-    """Heads of tables are written out, in both languages, one above each column"""
+    """Heads of tables are full words, in both languages, one above each column"""
     for language, brief in BRIEF.items():
         for arguments in (("four-systems",), ("paper-site",), ("-s", "simulation.contact_model=index", "four-systems")):
             text, _ = report("--language", language, *arguments)
@@ -295,7 +292,7 @@ def test_heads():
 
 
 def test_powers():
-    """Pages write m\u00b3 and m\u00b2, in ASCII and in the scene's text m3; keys keep their names"""
+    """Pages print m³ and m², in ASCII and in the scene's text m3; keys keep their names"""
     blocks = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}", "four-systems")
     for language, felled in (("en", "felled, m\u00b3 per ha and year"), ("it", "tagliati, m\u00b3 per ha e anno")):
         text, page = report("--language", language, *blocks)
@@ -307,7 +304,7 @@ def test_powers():
 
 
 def test_unknown():
-    """What is not known is a sentence of the answer: what may be true, and whether the answer depends on it"""
+    """Uncertain inputs are a sentence of the answer: the range, and whether the answer depends on them"""
     def said(*arguments, few=UNCERTAINTY):
         return " ".join(report(*arguments, few=few)[1].text["div"].split())
     between = (r"In nine of ten plausible cases, (\d+) to (\d+) of 1000 rocks arrive with more than (\d+) kJ today\. "
@@ -329,8 +326,7 @@ EVERYTHING = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}
 
 
 def test_office():
-    """Of several options the page has percentiles and design values of the one that is drawn, at each control, the rules of
-    the region with their sources, and the curves of how often"""
+    """With several options the page has percentiles and design values of the drawn one, rules with sources, and hazard curves"""
     _, page = report("--option", "selection coppice", "--option", "large reserves", *EVERYTHING, "four-systems",
                      few=("-n", 200, "-s", "uncertainty=none"))
     for place in ("path (100 m)", "road (135 m)"):
@@ -343,13 +339,13 @@ def test_office():
 
 
 def test_few_rocks():
-    """With fewer rocks than it usually takes the uncertainty has no more than were asked for"""
+    """With fewer rocks than the default the uncertainty uses no more"""
     _, page = report("four-systems", few=("-n", 50, *UNCERTAINTY[2:]))
     expect_in("Sampling error: 50 rocks; ", page.text["p"])
 
 
 def test_left_out():
-    """A page of many options with blocks leaves out, and says so, what other commands show"""
+    """A page of many options with blocks omits results of other commands, and says so"""
     _, page = report(*EVERYTHING, "four-systems", few=("-n", 200, "--sensitivity=20"))
     expect_in("Left out of this long page: ", page.text["p"])
     expect("Options side by side" not in page.text["figcaption"], page.text["figcaption"])
@@ -358,7 +354,7 @@ def test_left_out():
 
 
 def test_chapters():
-    """Several scenes give chapters in their order; a bad one is told and left out"""
+    """Several scenes give chapters in order; a bad one is reported and omitted"""
     text, page = report("paper-site", "terrace", "staggered")
     check_page(text, page)
     expect_equal(page.names.count("h1"), 4, "what is said of all, and chapters")
@@ -374,7 +370,7 @@ def test_chapters():
 
 
 def test_refused():
-    """What the report cannot do is told before anything is computed"""
+    """Unsupported requests of the report are refused before any computation"""
     for arguments in (("-o", "x.html"), ("--plot", "profile"), ("-f", "json"), ("--rows", "stands", "-f", "csv"),
                       ("--find", "rock.diameter_m=1:2", "--goal", "adc"), ("--calibrate", "rock.diameter_m=1:2")):
         done = ceduo("--report", "-", *arguments, "paper-site")
@@ -388,7 +384,7 @@ def test_refused():
 
 
 def test_file_forgotten():
-    """A scene in the place of the page is not written over; a page ends in .html or .htm"""
+    """A scene in place of the page is not overwritten; a page ends in .html or .htm"""
     with Folder() as f:
         path, other = f.write("scene.yaml", scene()), f.write("other.yaml", scene(title="another"))
         before = other.read_bytes()
@@ -404,14 +400,14 @@ def test_file_forgotten():
 
 
 def test_odd_scenes():
-    """Without forest, without accepted energy, of one rock: there is a page all the same"""
+    """Without forest, without accepted energy, or with one rock the page is still printed"""
     for changes in (("-s", "forest=[]"), ("-s", "controls=[{x_m: 100}]"), ("-n", "1"),
                     ("-s", "simulation.contact_model=index"), ("--years", "0:3"), ("-s", "release.vx_m_s=0.1", "--seed", "7")):
         check_page(*report(*changes, "paper-site"))
 
 
 def test_tidy():
-    """tidy finds nothing to mend, where it is installed"""
+    """tidy reports nothing, if it is installed"""
     if not shutil.which("tidy"):
         return
     for scene, few in (("paper-site", UNCERTAINTY), ("rotation", FEW)):

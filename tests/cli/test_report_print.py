@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The report in a browser and on paper: nothing from a network, nothing clipped or overlapping, text that can be read.
+"""The report in a browser and on paper: no network, nothing clipped or overlapping, readable text.
 
-Slow, so `make check-all` alone runs it, with Debian's chromium and poppler-utils.
+Slow: only in `make check-all`, with Debian's chromium and poppler-utils.
 """
 import html
 import json
@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import FULL, PATIENCE, PROFILES, SANITIZED, Folder, Skip, expect, expect_equal, good, run_all  # noqa: E402
 
 SCENES = sorted(path.stem for path in (PROFILES / "scenes").glob("*.yaml"))
-# eight options with all that a scene can ask for
+# eight options with all outputs of a scene
 EVERYTHING = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}", "-s", "rules=toscana", "-s",
               "design={survey: good, blocks: poor}", "-s",
               "controls=[{x_m: 100, name: path, accepted_kJ: 30}, {x_m: 135, name: road, accepted_kJ: 50}]", "-s",
@@ -26,7 +26,7 @@ EVERYTHING = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}
               "observed=[{name: marks, passed: {x_m: 100, count: 8, of: 10}}]")
 QUICK = ("-n", 2000, "--sensitivity=8")
 
-# Looks at every element that has text of its own: its boxes, its colours, and whether it stays within its place.
+# Checks every element with its own text: boxes, colours, and whether it stays in its place.
 LOOK = r"""
 (() => {
   const found = {problems: [], resources: performance.getEntriesByType('resource').length, texts: 0};
@@ -98,7 +98,7 @@ def report(folder, scene, language, *more):
 
 
 def look(folder, path):
-    """What the browser finds in the page as it is on a screen as wide as the paper."""
+    """Return the browser's findings on the page, on a screen as wide as the paper."""
     seen = folder / "look.html"
     seen.write_text(path.read_text(encoding="utf-8").replace("</body>", f"<script>{LOOK}</script></body>"), encoding="utf-8")
     dom = chromium(folder, "--virtual-time-budget=5000", "--dump-dom", seen.as_uri())
@@ -106,7 +106,7 @@ def look(folder, path):
 
 
 def words_on_paper(pdf):
-    """Pages, each as its size and the boxes of its words."""
+    """Return pages, each with its size and the boxes of its words."""
     text = subprocess.run(["pdftotext", "-bbox", pdf, "-"], capture_output=True, check=True).stdout.decode("utf-8", "replace")
     text = re.sub(r"<!DOCTYPE.*?>", "", text, flags=re.S).replace(' xmlns="http://www.w3.org/1999/xhtml"', "")
     for page in ElementTree.fromstring(text).iter("page"):
@@ -115,7 +115,7 @@ def words_on_paper(pdf):
 
 
 def check_paper(folder, path):
-    """A4, 2 to 4 pages, no word outside the margins or over another, no page almost empty but the last"""
+    """A4, 2 to 4 pages, no word outside the margins or over another, no page almost empty except the last"""
     pdf = folder / "page.pdf"
     chromium(folder, "--no-pdf-header-footer", f"--print-to-pdf={pdf}", path.as_uri())
     pages = list(words_on_paper(pdf))
@@ -129,7 +129,7 @@ def check_paper(folder, path):
         over = [(a, b) for i, a in enumerate(words) for b in words[i + 1:]
                 if min(a[2], b[2]) - max(a[0], b[0]) > 1 and min(a[3], b[3]) - max(a[1], b[1]) > 0.5 * min(a[3] - a[1], b[3] - b[1])]
         expect(not over, f"{path.name}, page {number}: over one another", over[:5])
-    # the two tables of percentiles, through the forest and without it, stand on one sheet
+    # the two tables of percentiles, with and without forest, are on one sheet
     flat = [" ".join(w[4] for w in words) for _, _, words in pages]
     for page in flat:
         heads = [len(re.findall(rf"\b{word}, \d+ (?:of|di) \d+", page)) for word in ("(?:wood|bosco)", "(?:bare|senza)")]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--resume: a table of --each that is stopped and goes on. The wanted table is always that of one run without --resume."""
+"""--resume: a table of --each is stopped and continued. The result equals one run without --resume."""
 import fcntl
 import os
 import random
@@ -43,7 +43,7 @@ def run(f, *words, rocks=60):
 
 
 def in_one_go(f, *words, rocks=60):
-    """The table of one run without --resume."""
+    """Return the table of one run without --resume."""
     (f.path / "whole.csv").unlink(missing_ok=True)
     r = run(f, *(words or WORDS), "-o", "whole.csv", rocks=rocks)
     expect(r.status in (DONE, INPUT), str(r))
@@ -62,12 +62,12 @@ def expect_resumed(f, whole, status=DONE):
 
 
 def parts_of(f):
-    """Lines of the side file, one for each row that is done."""
+    """Return the lines of the side file, one per finished row."""
     return (f.path / "part.csv.resume").read_text().splitlines()[7:]
 
 
 def test_kills():
-    """Killed at any moment, it goes on; the table is that of one run, to the byte, and no row that was done is computed again"""
+    """Killed at any moment, it continues; the table equals that of one run to the byte, and no finished row is repeated"""
     with Folder() as f:
         valley(f, rows_of(range(60)))
         whole = in_one_go(f)
@@ -80,7 +80,7 @@ def test_kills():
                     p.kill()
                 done = len(parts_of(f)) if (f.path / "part.csv.resume").exists() else 0
                 expect(p.returncode in (0, -signal.SIGKILL), p.returncode)
-            cut = chance.choice((0, 0, 1, 5, 60, 300))  # bytes that never came to the disk
+            cut = chance.choice((0, 0, 1, 5, 60, 300))  # bytes that never reached the disk
             for name in ("part.csv", "part.csv.resume"):
                 if cut and (f.path / name).exists() and chance.random() < 0.5:
                     size = (f.path / name).stat().st_size
@@ -92,7 +92,7 @@ def test_kills():
 
 
 def test_nothing_twice():
-    """What is done is not computed again: a second run of a table that takes long takes no time"""
+    """Finished rows are not repeated: a second run of a slow table takes no time"""
     for rows in (rows_of(range(3)), "id,rock.diameter_m\na,0.5\nb,0.6\nc,0.7\n"):
         with Folder() as f:
             valley(f, rows)
@@ -107,7 +107,7 @@ def test_nothing_twice():
 
 
 def test_two_programs():
-    """Of two programs on one file the second is refused while the first writes; at the end there is one table"""
+    """With two programs on one file the second is refused while the first writes; one table results"""
     with Folder() as f:
         valley(f, rows_of(range(40)))
         whole = in_one_go(f)
@@ -129,7 +129,7 @@ def test_two_programs():
 
 
 def test_changed_rows():
-    """Rows whose cells or files changed, that are new, or whose lines are broken are computed again; the order is that of the table"""
+    """Rows with changed cells or files, new rows, and rows with broken lines are computed again, in the table's order"""
     with Folder() as f:
         valley(f, rows_of(range(8)))
         expect_equal(resume(f).status, DONE)
@@ -165,7 +165,7 @@ def test_changed_rows():
 
 
 def test_other_runs():
-    """Another version, scene, seed, number of rocks, option or column is refused with its name, and the file stays as it is"""
+    """Another version, scene, seed, number of rocks, option or column is refused by name, and the file stays"""
     with Folder() as f:
         valley(f, rows_of(range(4)))
         whole = in_one_go(f)
@@ -195,13 +195,13 @@ def test_other_runs():
             f.write(name, kept)
         for words in (["-j", "1"], ["--language", "it"]):  # these change no figure
             expect_equal(resume(f, *WORDS, *words).status, DONE)
-        (f.path / "part.csv").unlink()  # whoever removes the table begins anew
+        (f.path / "part.csv").unlink()  # after deleting the table a new run starts
         r = resume(f, rocks=61)
         expect_equal((r.status, (f.path / "part.csv").read_bytes()), (DONE, in_one_go(f, rocks=61)), str(r))
 
 
 def test_other_files():
-    """What is no table of --resume, a device, a pipe, a file that is read or that cannot be written is refused; so is -o -"""
+    """A foreign table, a device, a pipe, an input file, an unwritable file and -o - are refused"""
     with Folder() as f:
         valley(f, rows_of(range(2)))
         f.write("other.csv", "name,option\na,b\n")
@@ -230,7 +230,7 @@ def test_other_files():
 
 
 def test_several_scenes():
-    """Rows of two scenes each, rows with equal cells, and a row that fails at first"""
+    """Rows of two scenes each, rows with equal cells, and a row that first fails"""
     with Folder() as f:
         valley(f, rows_of([0, 0, 1]) + "r5,late.csv,1\n" + rows_of([2])[len(rows_of([])):])
         f.write("t.yaml", wooded_scene(title="other", controls=[{"x_m": "end-50"}]))

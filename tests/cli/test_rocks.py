@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many rocks: -n, --seed, -j and -e."""
+"""Numbers of rocks: -n, --seed, -j and -e."""
 import math
 import re
 import sys
@@ -13,7 +13,7 @@ from runs import FOUR, MODELS, PAPER, THICK, THIN, expect_run, read_csv, through
 
 
 def test_rocks_and_seed():
-    """-n and --seed: reported, the same seed gives the same bytes, another others; the first rocks stay the same"""
+    """-n and --seed: reported; equal seeds give equal bytes, others differ; the first rocks stay the same"""
     runs = [without_seconds(good("--batch", "-f", "json", "-n", 500, "--seed", s, PAPER).out) for s in (1, 1, 2)]
     expect(runs[0] == runs[1] != runs[2], "seeds")
     for model, runs in (("index", 1), ("stems", 3)):
@@ -34,7 +34,7 @@ def test_seed_beyond():
 
 
 def test_threads():
-    """-j 1, 2, 16 and 1024 give the same bytes but for work.seconds"""
+    """-j 1, 2, 16 and 1024 give equal bytes except work.seconds"""
     for extra in (through("index"), (), ("-s", "simulation.law=crsp", "-s", "rock.diameter_m.spread=0.05")):
         runs = {j: without_seconds(good("--batch", "-f", "json", "-n", 3000, "-j", j, *extra, PAPER).out)
                 for j in (1, 2, 16, 1024)}
@@ -52,7 +52,7 @@ def half_width(bare):
 
 
 def test_tolerance_met():
-    """-e goes on until every mean energy is known so well, the same with any number of threads"""
+    """-e continues until every mean energy has this precision, for any number of threads"""
     two = ["-s", "controls=[{x_m: 60}, {x_m: 135}]"]
     for model in MODELS:
         run = result("-e", 0.01, *two, *through(model), PAPER)
@@ -67,7 +67,7 @@ def test_tolerance_met():
 
 
 def expect_tolerance(run, tolerance):
-    """Every mean energy printed is known so well, but where a warning names the control as left out, or all as not met."""
+    """Expect every printed mean energy to have this precision, unless a warning names the control, or that it was not met."""
     if any("not met" in w for w in run["warnings"]):
         return
     for option in run["options"]:
@@ -82,7 +82,7 @@ def expect_tolerance(run, tolerance):
 
 
 def test_tolerance_options():
-    """-e goes on until every option's mean energy through its wood is known so well"""
+    """-e continues until every option's mean energy with forest has this precision"""
     with Folder() as f:
         path = f.write("s.yaml", treated(thin=THIN, thick=THICK, none=None))
         run = result(path, "-e", 0.02)
@@ -97,7 +97,7 @@ def test_tolerance_options():
 
 
 def test_tolerance_few_wooded():
-    """-e leaves out a control that under 100 rocks reach through the wood, and names it; where none reach it, too"""
+    """-e skips a control that under 100 rocks reach with forest, and names it; also without arrivals"""
     with Folder() as f:
         dense = {**THICK, "trees": [{**THICK["trees"][0], "per_ha": 1500, "volume_m3": 5}]}
         path = f.write("s.yaml", wooded_scene(forest=[{"from_m": 62, "to_m": 100, "stand": dense}],
@@ -123,9 +123,9 @@ def test_tolerance_not_met():
 
 
 def test_tolerance_few():
-    """-e leaves out a control that under 100 rocks reach, and names it"""
+    """-e skips a control that under 100 rocks reach, and names it"""
     with Folder() as f:
-        # rocks that come to rest: few reach the end
+        # these rocks stop: few reach the end
         few = scene(slope={"vertices_m": [[0, 20], [30, 0], [200, 0]],
                            "segments": [{"rn": 0.3, "rt": 0.8, "roughness_rad": 0.3, "friction": 0.5}]},
                     controls=[{"x_m": 25}, {"x_m": 199}])
@@ -142,8 +142,8 @@ def said(run, what):
 
 
 def test_stopped_at_the_release():
-    """Rocks that stems stop within 10 m of the release are named with their share: all that are stopped where the forest ends
-    there, none where it begins behind"""
+    """Rocks that stems stop within 10 m of the release are reported with their share: all stopped ones, or none in a later
+    forest"""
     with Folder() as f:
         near = f.write("near.yaml", wooded_scene(release={"x_m": 20}, forest=[belt(10, 30)]))
         far = f.write("far.yaml", wooded_scene(release={"x_m": 20}, forest=[belt(31, 95)]))
@@ -159,17 +159,17 @@ def test_stopped_at_the_release():
 
 
 def test_uphill():
-    """Rocks that leave a profile over its upper end are counted and named; where it goes on uphill there are none"""
+    """Rocks that leave a profile at its upper end are counted and reported; with more profile uphill there are none"""
     thrown = {"x_m": 0, "height_m": 2, "vx_m_s": {"mean": 0, "spread": 1, "kind": "uniform"}}
     with Folder() as f:
-        # A wall at the foot: what leaves, leaves uphill.
+        # A wall at the foot: a rock can leave only uphill.
         short = f.write("short.yaml", scene(release=thrown, slope={"vertices_m": [[0, 40], [90, 0], [92, 40]], "segments": [
             {"rn": 0.35, "rt": 0.875, "friction": 0.5}]}))
         long_ = f.write("long.yaml", scene(release=thrown, slope={"vertices_m": [[-50, 62], [0, 40], [90, 0], [92, 40]],
                                                                   "segments": [{"rn": 0.35, "rt": 0.875, "friction": 0.5}]}))
         run = result(short)
         left = round(200 * run["options"][0]["ends"]["left_slope"])
-        expect(60 < left < 140, f"{left} of 200 leave")  # those that are thrown uphill
+        expect(60 < left < 140, f"{left} of 200 leave")  # rocks thrown uphill
         expect(said(run, f"Of 200 rocks simulated {left} bounce back over the upper end of the profile"), run["warnings"])
         expect_equal(said(result(long_), "upper end"), [], "a profile that begins farther up")
 

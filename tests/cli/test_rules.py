@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the rules of a region ask of a coppice: shipped regions, one's own file, and what is refused."""
+"""Regional rules for a coppice: shipped regions, a user's file, and errors."""
 import csv
 import io
 import re
@@ -29,7 +29,7 @@ def rules_of(what, rules, *arguments):
         return result(f.write("s.yaml", site(what, rules)), "-n", 5, *arguments)["options"][0]["stands"][0].get("rules")
 
 
-SHIPPED = [  # region, species, system, standards, turn: at least, met, turn at least, at most, met; from the texts of the acts
+SHIPPED = [  # region, species, system, standards, turn: minimum, met, minimum turn, maximum turn, met; from the acts
     ("toscana", "ostrya-carpinifolia", "simple-coppice", 60, 25, (60, True, None, None, None)),
     ("toscana", "quercus-cerris", "simple-coppice", 59, 17, (60, False, 18, None, False)),
     ("toscana", "quercus-ilex", "simple-coppice", 60, 17, (60, True, 18, None, False)),
@@ -47,7 +47,7 @@ SHIPPED = [  # region, species, system, standards, turn: at least, met, turn at 
 
 
 def test_shipped():
-    """Toscana, Umbria, Marche: the minimum of the species, its turn, and whether they are kept"""
+    """Toscana, Umbria, Marche: the minimum for the species, its turn, and compliance"""
     for region, species, system, standards, turn, wanted in SHIPPED:
         r = rules_of(coppice(species, standards, turn, system=system), region)
         expect_equal((r["standards_least"], r["standards_met"], r["turn_least"], r["turn_most"], r["turn_met"]), wanted,
@@ -56,7 +56,7 @@ def test_shipped():
 
 
 def test_shipped_say_where_from():
-    """Each row of a shipped region names article and year, and the file is listed"""
+    """Each row of a shipped region has article and year, and the file is listed"""
     listed = good("--list-profiles").out
     for path in sorted((ROOT / "profiles/rules").glob("*.yaml")):
         text = path.read_text()
@@ -67,7 +67,7 @@ def test_shipped_say_where_from():
 
 
 def test_what_counts():
-    """Standards are those that a cut leaves; without cutting the trees that stand, and there is no turn"""
+    """Standards are the trees left by a cut; without cutting the existing trees count, and there is no turn"""
     kept = rules_of(coppice(), "umbria")
     expect_equal((kept["standards_per_ha"], kept["standards_met"]), (60, False))
     standing = rules_of(coppice(turn=None), "umbria")
@@ -76,14 +76,14 @@ def test_what_counts():
 
 
 def test_selection():
-    """In a selection coppice the oldest shoots are cut after all cohorts, and Toscana asks for 40 standards"""
+    """In a selection coppice the oldest shoots are cut after all cohorts, and Toscana requires 40 standards"""
     sel = coppice("fagus-sylvatica", 40, system="selection-coppice", cutting={"rotation_years": 8, "cohorts": 3, "stay_per_ha": [40]})
     r = rules_of(sel, "toscana")
     expect_equal((r["standards_least"], r["standards_met"], r["turn_y"], r["turn_least"], r["turn_met"]), (40, True, 24, 24, True))
 
 
 def test_own_region():
-    """A region is one file: the first row about a stand counts; without a species nothing is known"""
+    """A region is one file: the first matching row counts; without a species compliance is unknown"""
     own = {"ceduo": "rules/1", "name": "Nowhere", "note": "made up",
            "standards": [{"species": ["acer"], "system": "large-reserves", "per_ha": 5, "most_per_ha": 7, **ROW},
                          {"species": ["acer"], "per_ha": 10, **ROW}, {"per_ha": 70, **ROW}]}
@@ -104,7 +104,7 @@ def test_own_region():
 
 
 def test_page():
-    """The page says what is met and warns of what is not, once for each stand"""
+    """The page prints compliance and warns of violations, once per stand"""
     with Folder() as f:
         path = f.write("s.yaml", site(coppice(), "umbria"))
         page = " ".join(good(*WHOLE, "-n", 5, path).out.split())
@@ -117,8 +117,8 @@ NO_TURN = "the rules of {} give no rotation for this species ({}). The rotation 
 
 
 def test_not_named():
-    """What a region does not name is said, by species: on the page, in the report, on the screen, also where nothing is cut; JSON
-    and CSV have null. Holm oak is an oak of Toscana's 'specie quercine'."""
+    """A species missing in a region is reported on the page, in the report and on the screen, also without cutting; JSON and
+    CSV have null. Holm oak is an oak of Toscana's 'specie quercine'."""
     with Folder() as f:
         for region, species, common, named in (("toscana", "ostrya-carpinifolia", "hop hornbeam", False), ("toscana", "acer", "maple", False),
                                                ("toscana", "quercus-ilex", "holm oak", True), ("toscana", "carpinus-betulus", "hornbeam", True),
@@ -143,7 +143,7 @@ def test_not_named():
 
 
 def test_marche():
-    """Of Marche only the paper's 60 standards are checked, and every page says so"""
+    """For Marche only the paper's 60 standards are checked, and every page says so"""
     with Folder() as f:
         path = f.write("s.yaml", site(coppice(), "marche"))
         page = " ".join(good(*WHOLE, "-n", 5, path).out.split())
@@ -153,7 +153,7 @@ def test_marche():
 
 
 def test_notes_in_italian():
-    """What is noted of a shipped region is Italian on an Italian page; a note of one's own stands as it is written"""
+    """A note of a shipped region is Italian on an Italian page; a user's note stays as written"""
     with Folder() as f:
         for region in sorted((ROOT / "profiles/rules").glob("*.yaml")):
             note = next(line for line in region.read_text().splitlines() if line.startswith("note: ")).split('"')[1]
@@ -164,7 +164,7 @@ def test_notes_in_italian():
 
 
 def test_csv():
-    """CSV has the same in a row for each stand, empty where nothing is asked for, and Italian changes none of it"""
+    """CSV has the same values in a row per stand, empty without a rule, in any language"""
     with Folder() as f:
         for rules, wanted in (("umbria", {"region": "Umbria", "standards_per_ha": "60", "standards_least": "80", "standards_most": "",
                                           "standards_met": "false", "standards_article": "art. 33, R.R. 7", "standards_year": "2002",
@@ -180,7 +180,7 @@ def test_csv():
 
 
 def test_no_coppice():
-    """A high forest, a gap and a scene without rules are asked for nothing; no figure of a run changes"""
+    """Rules do not apply to a high forest, a gap or a scene without rules; no figure of a run changes"""
     high = coppice(stools=None, shoots=None)
     bare = stand(stools=None, shoots=None, trees=None, system="bare")
     for what, rules in ((high, "umbria"), (bare, "umbria"), (coppice(), None)):
@@ -202,7 +202,7 @@ BAD = [({"standards": []}, "'name' is missing"), ("lazio", "cannot find 'lazio'"
 
 
 def test_bad():
-    """An unknown region, species or key is told with its place"""
+    """An unknown region, species or key is reported with its place"""
     with Folder() as f:
         for rules, words in BAD:
             r = ceduo("--check", f.write("s.yaml", site(coppice(), rules)))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tests are run in an environment that is known, whatever that of the machine; CI sums them up in its last line."""
+"""Tests run in a defined environment on any machine; CI ends with a summary line."""
 import os
 import shutil
 import subprocess
@@ -17,7 +17,7 @@ THEIRS = {"LANG": "it_IT.UTF-8", "LC_ALL": "it_IT.UTF-8", "LC_NUMERIC": "de_DE.U
 
 
 def test_environment():
-    """A test finds one locale, time zone, terminal and an empty home, which is gone afterwards; what it failed with is said"""
+    """A test has one locale, time zone and terminal, and an empty temporary home; its failures are printed"""
     with Folder() as f:
         test = f.write("test", "#!/bin/sh\nenv | sed 's/^/# /'\nls -A \"$HOME\" | sed 's/^/not ok - home has /'\ntouch \"$HOME/left\"\n"
                                "echo ok 1 - one\n")
@@ -38,7 +38,7 @@ def test_environment():
 
 
 def ci(folder, *sums):
-    """.ci/run with a make that says something and then each of these in turn; its lines and status."""
+    """Run .ci/run with a make that prints and then does each of these; return its lines and status."""
     bin_ = folder.path / "bin"
     bin_.mkdir(exist_ok=True)
     (folder.path / "n").write_text("0")
@@ -55,7 +55,7 @@ def ci(folder, *sums):
 
 
 def test_ci():
-    """CI runs all tests, then some in Italian and in German; its last line alone is a sum, and it fails where a part does"""
+    """CI runs all tests, then some in Italian and in German; only its last line is a summary, and it fails with any part"""
     def says(passed, failed):
         return f'echo "{passed} passed, {failed} failed"; exit {int(failed > 0)}'
 

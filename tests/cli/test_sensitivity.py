@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: threads
-"""--sensitivity: what is in doubt, what it does to the answer, and what is refused."""
+"""--sensitivity: uncertain inputs, their effect on the answer, and errors."""
 import csv
 import html
 import io
@@ -24,7 +24,7 @@ def wood(**changes):
 
 
 def measured(**changes):
-    """A scene of which every value is given and measured."""
+    """Return a scene with all values given and measured."""
     return scene(**{"rock": {"shape": "sphere", "diameter_m": 0.7, "density_kg_m3": 2600},
                     "controls": [{"x_m": 90, "accepted_kJ": 20}],
                     "forest": [{"from_m": 0, "to_m": 80, "stand": wood()}],
@@ -82,7 +82,7 @@ def test_page_of_a_run():
 
 
 def test_lights():
-    """A light that changes within what may be true says on what it depends; one that does not is silent"""
+    """A light that changes within the plausible cases names its decisive input; another does not"""
     speed = {"path": "release.vx_m_s", "lo": 1, "hi": 9}
     trees = {"path": "forest[0].stand.trees[0].per_ha"}
     for uncertainty, energy, contact, free_run in (([speed], True, False, False), ([trees | {"lo": 150, "hi": 600}], False, True, False),
@@ -100,7 +100,7 @@ def test_lights():
 
 
 def test_lights_of_two_inputs():
-    """Two kinds of trees that are alike and in equal uncertainty are both named; beside one that is nearly known the other alone"""
+    """Two equal kinds of trees with equal uncertainty are both named; if one is almost certain, only the other"""
     tree = {"per_ha": 200, "dbh_m": 0.3, "height_m": 18}
     for least, most, both in ((50, 350, True), (195, 205, False)):
         uncertainty = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 50, "hi": 350},
@@ -115,7 +115,7 @@ def test_lights_of_two_inputs():
 
 
 def test_lights_of_gaps():
-    """A gap without stems fails the test of contact whatever stems stand beside it: it depends on nothing"""
+    """A gap fails the test of contact for any stems around it: it depends on no input"""
     uncertainty = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 150, "hi": 600}]
     for start, depends in ((0, True), (60, False)):
         what = measured(uncertainty=uncertainty, forest=[{"from_m": start, "to_m": 85, "stand": wood()}], simulation={"threshold_m": 30})
@@ -125,7 +125,7 @@ def test_lights_of_gaps():
 
 
 def test_index():
-    """By the index no rock flies among stems: its figures are those without forest, and no stem moves them"""
+    """The index simulates no rock among stems: its figures equal those without forest, and stems do not affect them"""
     uncertainty = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 150, "hi": 600}]
     what = measured(uncertainty=uncertainty, simulation={"contact_model": "index"})
     result = answer(what)
@@ -138,7 +138,7 @@ def test_index():
 
 
 def test_what_is_not_given():
-    """A value that the scene does not give is set where it is varied, and not given where it is not"""
+    """A value missing in the scene is set while it varies, and missing again afterwards"""
     accepted = {"path": "controls[0].accepted_kJ", "lo": 20, "hi": 100}
     result = answer(measured(controls=[{"x_m": 90}], uncertainty=[accepted, DENSITY]))
     exceed = figure(result, "exceed_probability")
@@ -148,7 +148,7 @@ def test_what_is_not_given():
 
 
 def test_ends_of_counts_and_ranges():
-    """A count is varied in whole numbers; what a factor takes out of a range stays at its end"""
+    """A count varies in whole numbers; a factor is clamped to the range"""
     assumed = {"kind": "assumed", "text": "a guess"}
     slope = {"vertices_m": [[0, 70], [100, 0]],
              "segments": [{"rn": 0.3, "rt": 0.98, "roughness_rad": 0.2, "friction": 0.5, "source": assumed}]}
@@ -166,7 +166,7 @@ def test_ends_of_counts_and_ranges():
 
 
 def test_named():
-    """What a scene names is varied within its range, and nothing else"""
+    """Named inputs vary within their ranges, and nothing else does"""
     result = answer(measured(uncertainty=[LAW, DENSITY]))
     expect_equal(result["format"], "ceduo-sensitivity-1")
     expect_equal(paths(result), ["forest[*].stand.energy.model", "rock.density_kg_m3"])
@@ -178,7 +178,7 @@ def test_named():
 
 
 def test_ends_are_runs():
-    """The figure with one input at either end is that of the scene with that value"""
+    """A figure with one input at either end equals that of the scene with this value"""
     what = measured(uncertainty=[LAW, DENSITY])
     result = answer(what)
     with Folder() as f:
@@ -195,7 +195,7 @@ def test_ends_are_runs():
 
 
 def test_value_is_the_run():
-    """The figures of the scene as it is are those of a run, with its intervals"""
+    """The figures of the unchanged scene equal those of a run, with its intervals"""
     what = measured(uncertainty=[LAW])
     result = answer(what)
     with Folder() as f:
@@ -207,7 +207,7 @@ def test_value_is_the_run():
 
 
 def test_assumed():
-    """Values that are marked as assumed have ranges of their own; a range of the scene goes before them"""
+    """Assumed values have default ranges; a range of the scene overrides them"""
     assumed = {"kind": "assumed", "text": "a guess"}
     trees = [{"per_ha": 400, "dbh_m": 0.2, "height_m": 12, "volume_m3": 0.2, "source": assumed}]
     forest = [{"from_m": 0, "to_m": 80, "stand": wood(trees=trees)}]
@@ -222,13 +222,13 @@ def test_assumed():
 
 
 def words_in_uncertainty(result):
-    """Number of places and both words of the energy law and of the offset, where they are in doubt."""
+    """Return the number of places and both words of the energy law and of the offset, if uncertain."""
     return {i["path"].rpartition(".")[2]: (i["places"], i["lo"], i["hi"]) for i in (result["figures"] or [{"inputs": []}])[0]["inputs"]
             if ".energy." in i["path"] and isinstance(i["lo"], str)}
 
 
 def test_words_of_nobody():
-    """An energy law that nobody chose is in doubt, once for all stands; so is what a hit off centre takes, where the law may be brauner"""
+    """A default energy law is uncertain, once for all stands; so is the energy of an off-centre hit, if the law may be brauner"""
     law, offset = {"model": (2, "brauner", "dorren")}, {"offset": (2, "whole", "dorren")}
     for energy, wanted in ((None, {**law, **offset}), ({"model": "brauner"}, offset), ({"model": "dorren"}, {}),
                            ({"offset": "whole"}, law), (ENERGY, {})):
@@ -246,7 +246,7 @@ CROWD = {"shoots_young": (16, 0.25), "shoots_old": (3, 0.25), "sdi_most": (1000,
 
 
 def grown(kind="assumed", **changes):
-    """A coppice that grows and is cut; only its growth is not measured."""
+    """Return a coppice that grows and is cut; only its growth is not measured."""
     curve = {key: value for key, (value, _) in CURVE.items()}
     growth = {"shoots": curve, "trees": {**curve, "dbh_most_m": 0.45}, **{key: value for key, (value, _) in CROWD.items()},
               "trees_sdi_most": 350, "source": {"kind": kind, "text": "right in size"}}
@@ -263,7 +263,7 @@ def two_options(**changes):
 
 
 def test_growth():
-    """Over the years constants of growth that are assumed have ranges, once for all stands of a species; figures of today have none"""
+    """Over the years assumed growth constants have ranges, once per species; today's figures have none"""
     result = answer(two_options(), "--years")
     mean = figure(result, "rotation.exceed_probability")
     inputs = {i["path"].split(".growth.")[1]: i for i in mean["inputs"]}
@@ -280,7 +280,7 @@ def test_growth():
     expect(mean["uncertainty"]["p95"] - mean["uncertainty"]["p5"] > 0.01, mean)
     for name in ("exceed_probability", "reach_probability"):
         expect_equal(figure(result, name)["inputs"], [], f"{name}: today")
-        expect_near(figure(result, name)["uncertainty"]["p5"], figure(result, name)["uncertainty"]["p95"], 0.005, f"{name}: today")  # the points', and the value of more rocks
+        expect_near(figure(result, name)["uncertainty"]["p5"], figure(result, name)["uncertainty"]["p95"], 0.005, f"{name}: today")  # its own points, with more rocks
     expect_equal(answer(two_options())["figures"], [], "without --years nothing is in doubt")
     expect_equal(answer(two_options(kind="measured"), "--years")["figures"], [], "measured growth")
     two = two_options()
@@ -289,7 +289,7 @@ def test_growth():
 
 
 def test_growth_leaves_today_alone():
-    """Figures of today are the same to the bit whether growth is assumed or measured"""
+    """Today's figures are equal to the bit for assumed and measured growth"""
     named = {"uncertainty": [DENSITY, LAW]}
     found = [answer({**two_options(kind=kind), **named}, "--years=7:8", points=64) for kind in ("assumed", "measured")]
     for name in ("exceed_probability", "reach_probability", "energy_per_released_kJ"):
@@ -302,11 +302,11 @@ def test_growth_leaves_today_alone():
 
 
 def test_ground_of_the_library():
-    """A ground of the library has its published range, wherever it is"""
+    """A ground of the library has its published range at every place"""
     slope = {"vertices_m": [[0, 60], [50, 25], [100, 0]], "materials": [{"from_m": 0, "to_m": 100, "material": "talus"}]}
     result = answer(measured(slope=slope))
     inputs = {i["path"]: i for i in result["figures"][0]["inputs"]}
-    # the point at 50 m is kept with any tolerance from .25 to 1 m: which of them makes no difference
+    # the point at 50 m stays with any tolerance from .25 to 1 m: the tolerance has no effect
     expect_equal(sorted(inputs), [f"slope.materials[talus].{k}" for k in ("friction", "rn", "roughness_m", "rt")])
     rn = inputs["slope.materials[talus].rn"]
     expect_equal((rn["lo"], rn["hi"], rn["places"]), (0.30, 0.33, 2))  # Pfeiffer et al. 1993
@@ -327,7 +327,7 @@ def test_threads():
 
 
 def test_no_effect():
-    """What has no effect on a figure has no share of it: with the law lumped mass moves no trajectory"""
+    """An input without effect has no share: under the law lumped mass changes no trajectory"""
     slope = {"vertices_m": [[0, 50], [60, 8], [160, 0]],
              "segments": [{"rn": 0.3, "rt": 0.9, "roughness_rad": 0.2, "friction": 0.5}]}
     result = answer(measured(forest=[], slope=slope, controls=[{"x_m": 100}], simulation={"rocks": 200, "law": "lumped"},
@@ -340,11 +340,11 @@ def test_no_effect():
 
 
 CLOSED = [{"path": "rock.density_kg_m3", "lo": 2385, "hi": 2915}, {"path": "simulation.gravity_m_s2", "lo": 9.3195, "hi": 10.3005}]
-IDLE = {"path": "forest[0].stand.trees[0].per_ha", "lo": 400, "hi": 600}  # of a belt that lies behind the last control
+IDLE = {"path": "forest[0].stand.trees[0].per_ha", "lo": 400, "hi": 600}  # of a belt after the last control
 
 
 def energies_in_uncertainty(points, seeds, idle):
-    """The energy per rock started at rest: it goes as density times gravity by the law lumped, which has no scale of speed."""
+    """Return the energy per rock started at rest: proportional to density times gravity under lumped, which has no speed scale."""
     what = measured(forest=[{"from_m": 92, "to_m": 99, "stand": wood()}] if idle else [], release={"x_m": 5}, simulation={"rocks": 200, "law": "lumped"},
                     rock={"shape": "sphere", "diameter_m": 0.7, "density_kg_m3": 2650}, uncertainty=CLOSED + [IDLE] * idle)
     with Folder() as f:
@@ -356,7 +356,7 @@ def energies_in_uncertainty(points, seeds, idle):
 
 
 def test_shares_in_closed_form():
-    """Energy goes as density times gravity where rocks start at rest: shares of .8 and .2, and what is left, whatever the seed"""
+    """Energy is proportional to density times gravity for rocks started at rest: shares of .8 and .2 and the rest, for any seed"""
     one, other = 0.1 ** 2 / 3, 0.05 ** 2 / 3  # uniform within 10 and 5 %; a product varies by both, and by their product
     both = one * other / (one + other + one * other)
     alone = 1 - both
@@ -366,20 +366,20 @@ def test_shares_in_closed_form():
             expect_near(found[row["path"]]["first"], share * alone, 1e-6, f"seed {seed}: {row['path']}")
             expect_near(found[row["path"]]["total"], share * alone + both, 1e-6, f"seed {seed}: {row['path']}")
             left[row["path"]] += found[row["path"]]["width_if_known"] / width / 20
-    whole = 3 - 2 * math.sqrt(0.2)  # p95 - p5 of the sum of two uniform ones, the first twice as wide
+    whole = 3 - 2 * math.sqrt(0.2)  # p95 - p5 of the sum of two uniform variables, the first twice as wide
     expect_near(left[CLOSED[0]["path"]], 0.9 / whole, 0.04, "density known")
     expect_near(left[CLOSED[1]["path"]], 1.8 / whole, 0.04, "gravity known")
 
 
 def test_left_without_effect():
-    """Of an input without effect all of the uncertainty is left, on the mean of ten seeds, from however few points"""
+    """For an input without effect the full range remains, on average over ten seeds, with any number of points"""
     for points in (20, 64):
         shares = [found[IDLE["path"]]["width_if_known"] / width for _, width, found in energies_in_uncertainty(points, 10, True)]
         expect_near(sum(shares) / 10, 1, 0.1, f"{points} points: {shares}")
 
 
 def test_page_of_shares():
-    """The page names an input whose share is more than two errors and 1 %, as at most 100 %, and counts the others; the first three are what to measure"""
+    """The page names inputs with shares above two errors and 1 %, at most 100 %, counts the others, and advises measuring three"""
     what = measured(uncertainty=[DENSITY, {"path": "release.vx_m_s", "lo": 4, "hi": 6}, {**IDLE, "lo": 150},
                            {"path": "slope.segments[0].friction", "lo": 0.45, "hi": 0.55}])
     between = named = 0
@@ -401,7 +401,7 @@ def test_page_of_shares():
 
 
 def test_many():
-    """Sixty inputs: each has its shares where there are points enough; with a few there is neither a band nor advice"""
+    """Sixty inputs: each has shares with enough points; with few there is neither a band nor advice"""
     belts = [{"from_m": 4 * i, "to_m": 4 * i + 4, "stand": wood()} for i in range(20)]
     speed = {"path": "release.vx_m_s", "lo": 1, "hi": 9}
     uncertainty = [{"path": f"forest[{i}].stand.{key}", "lo": lo, "hi": hi} for i in range(20)
@@ -426,14 +426,14 @@ GROWTH = {"shoots": {"dbh_most_m": 0.16, "dbh_rate_1_y": 0.03, "height_most_m": 
 
 
 def coppice(shoots, stay):
-    """Cut every eight years, measured throughout; its shoots as old as that, or just cut"""
+    """Return a coppice cut every eight years, fully measured; its shoots have that age, or none"""
     return stand(stools={"per_ha": 2500, "spacing_m": 0.35}, trees=[{"per_ha": stay, "dbh_m": 0.2, "height_m": 12, "volume_m3": 0.2}],
                  shoots=[{"per_ha": 7500, "dbh_m": 0.04, "height_m": 5, "volume_m3": 0.004, "age_y": 8}] if shoots else None,
                  energy=ENERGY, growth=GROWTH, cutting={"rotation_years": 8, "stay_per_ha": [stay]})
 
 
 def rotating(uncertainty=None, **changes):
-    """Two woods that are cut, with what is in doubt of both; rocks of many densities and stems of many strengths unless told"""
+    """Return two forests with cuts and uncertain inputs of both; random densities and stem strengths unless overridden"""
     options = [{"name": n, "forest": [{"from_m": 0, "to_m": 80, "stand": coppice(True, stay)}]} for n, stay in (("few", 50), ("many", 200))]
     what = measured(options=options, controls=[{"x_m": 90, "accepted_kJ": 120}],
                     uncertainty=uncertainty or [{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in ROTATING.items()], **changes)
@@ -441,12 +441,12 @@ def rotating(uncertainty=None, **changes):
     return what
 
 
-HEAVY = {"path": "rock.density_kg_m3", "lo": 2450, "hi": 2750}  # explained by few points
+HEAVY = {"path": "rock.density_kg_m3", "lo": 2450, "hi": 2750}  # few points explain it
 ROTATING = {"rock.density_kg_m3": (2000, 3000), "options[*].forest[0].stand.energy.u_J_m3": (5e4, 2e5)}
 
 
 def test_over_a_rotation_as_scenes_at_random():
-    """--years: the mean over a rotation, of options and of their difference, as of 40 scenes drawn at random, within three errors"""
+    """--years: the mean over a rotation, of options and their difference, agrees with 40 random scenes within three errors"""
     years = "--years" if FULL else "--years=1:3"
     result = answer(rotating(), years, "-n", 100)
     figures = {(f["option"], f["against"]): f for f in result["figures"] if f["figure"] == "rotation.exceed_probability"}
@@ -474,7 +474,7 @@ def test_over_a_rotation_as_scenes_at_random():
 
 
 def test_over_a_rotation():
-    """--years: two figures more, their ranks, and years that are given; without an accepted energy what arrives, by the index none"""
+    """--years: two more figures, their order, and given years; without an accepted energy arrivals, by the index none"""
     result = answer(rotating([HEAVY]), "--years", "-n", 32)
     expect_equal(sorted({f["figure"] for f in result["figures"]})[-2:], ["rotation.exceed_probability", "rotation.unprotected_energy"])
     expect_equal(len(result["figures"]), 3 * 5)
@@ -512,14 +512,14 @@ def test_failing_years_outwards():
 
 
 def test_a_year_as_today():
-    """A forest that neither grows nor is cut has one year, which is today's"""
+    """A forest that neither grows nor is cut has one year, equal to today"""
     result = answer(measured(uncertainty=[DENSITY]), "--years", "-n", 400)
     today, mean = figure(result, "exceed_probability"), figure(result, "rotation.exceed_probability")
     expect_equal([today["uncertainty"][k] for k in ("p5", "p50", "p95")], [mean["uncertainty"][k] for k in ("p5", "p50", "p95")])
 
 
 def test_stools_that_were_just_cut():
-    """Stools of a stand without shoots live on, whatever of the stand is in doubt: the rotation after is that of the grown stand"""
+    """Stools of a stand without shoots survive in uncertain cases: the following rotation is that of the grown stand"""
     for shoots in (True, False):
         what = measured(forest=[{"from_m": 0, "to_m": 80, "cut_year": 1, "stand": coppice(shoots, 50)}], controls=[{"x_m": 90, "accepted_kJ": 120}],
                         uncertainty=[{"path": "rock.density_kg_m3", "lo": 2599, "hi": 2601}])
@@ -530,7 +530,7 @@ def test_stools_that_were_just_cut():
 
 
 def test_ranking():
-    """Options: each pair of neighbours in rank, in how much of what may be true it is better, equal, worse; two alike are equal"""
+    """Options: each pair of neighbours in rank has shares of better, equal and worse cases; two equal ones are equal"""
     belts = [{"from_m": 0, "to_m": 80, "stand": wood()}]
     options = [{"name": "a", "forest": belts}, {"name": "b", "forest": belts}, {"name": "none", "forest": []}]
     what = measured(options=options, uncertainty=[DENSITY])
@@ -546,8 +546,7 @@ def test_ranking():
 
 
 def test_equal_whatever_the_rocks():
-    """Options are equal within 5 of 1000, whatever the number of rocks: what is better, equal and worse, and the word for it, do not
-    move with the rocks"""
+    """Options are equal within 5 in 1000 for any number of rocks: shares of better, equal and worse, and their word, stay"""
     for trees in (560, 600, 650):
         options = [{"name": str(n), "forest": [{"from_m": 0, "to_m": 80, "stand": wood(trees=[{**TREES[0], "per_ha": n}])}]}
                    for n in (500, trees)]
@@ -560,11 +559,11 @@ def test_equal_whatever_the_rocks():
                      for rocks in (400, 1600)]
         for key in ("probability", "equal", "worse"):
             expect_near(few[key], many[key], 0.1, f"{trees}: {key}")
-        expect(trees == 560 or words[0] == words[1], trees, words)  # of 560 the share lies just where the word changes
+        expect(trees == 560 or words[0] == words[1], trees, words)  # at 560 the word changes
 
 
 def test_what_would_settle_it():
-    """Each input says what would settle it, words too; measured first is what a reader can measure, each once, the same everywhere"""
+    """Each input has its remedy, words too; measurable ones come first, each once, equal everywhere"""
     belts = [{"from_m": a, "to_m": a + 40, "stand": {k: v for k, v in wood().items() if k != "energy"}} for a in (0, 40)]
     what = measured(forest=belts, uncertainty=[DENSITY, {"path": "forest[*].stand.trees[0].per_ha", "lo": 300, "hi": 700}])
     result = answer(what, points=256)
@@ -591,7 +590,7 @@ def test_what_would_settle_it():
 
 
 def test_bound_of_a_page():
-    """Where a page would cost too much its uncertainty is from fewer points, or not computed, and the page says so"""
+    """If a page would cost too much its uncertainty uses fewer points, or is omitted, and the page says so"""
     def of(per_ha, rock):
         trees = [{"per_ha": per_ha, "dbh_m": 0.03, "height_m": 12, "volume_m3": 1e-6}]
         return measured(forest=[{"from_m": 0, "to_m": 85, "stand": wood(trees=trees)}], uncertainty=[DENSITY],
@@ -611,10 +610,10 @@ def test_bound_of_a_page():
 
 
 def test_too_few_points_for_a_range():
-    """A 90 % range of fewer than 20 points is not there: null in JSON, and the page says how many points there are"""
+    """A 90 % range of fewer than 20 points is null in JSON, and the page prints the number of points"""
     with Folder() as f:
         path = f.write("s.yaml", measured(forest=[], release={"x_m": 5}, simulation={"rocks": 200, "law": "lumped"},
-                                          controls=[{"x_m": 90}], uncertainty=CLOSED))  # what explains all takes no more points
+                                          controls=[{"x_m": 90}], uncertainty=CLOSED))  # the surface needs no more
         for points in (19, 20):
             found = figure(good(f"--sensitivity={points}", "-f", "json", "-n", 60, path).json()[0], "energy_per_released_kJ")
             ends = [found["uncertainty"][k] for k in ("p5", "p50", "p95", "p5_se", "p95_se")]
@@ -631,7 +630,7 @@ def test_too_few_points_for_a_range():
 
 
 def test_a_range_holds_its_value():
-    """A range holds the value that it stands beside; what is left of it if an input is known is never wider"""
+    """A range contains its value; the remaining range with a known input is never wider"""
     for path in ("four-systems", "rotation", "paper-site"):
         for f in good("--sensitivity=32", "-f", "json", "-n", 200, "--years", path).json()[0]["figures"]:
             where = f"{path}: {f['option']}, {f['figure']}, against {f['against']}"
@@ -672,7 +671,7 @@ def test_paths_can_be_set():
 
 
 def test_as_scenes_at_random():
-    """The band of two options and of their difference is that of scenes drawn at random and set by the paths, within three errors"""
+    """The band of two options and of their difference agrees with random scenes set by the paths, within three errors"""
     names, count, rocks = ("selection coppice", "large reserves"), 80 if FULL else 40, 600
     option = [word for name in names for word in ("--option", name)]
     figures = [f for f in good("--sensitivity", "-f", "json", *option, "rotation").json()[0]["figures"] if f["figure"] == "exceed_probability"]
@@ -687,14 +686,14 @@ def test_as_scenes_at_random():
         column = sorted(d[1] - d[0] if f["against"] else d[names.index(f["option"])] for d in drawn)
         for key, share in (("p5", 0.05), ("p95", 0.95)):
             found = column[round(share * (count - 1))]
-            apart = math.sqrt(count * share * (1 - share))  # ranks that other draws may move it by
+            apart = math.sqrt(count * share * (1 - share))  # ranks that other draws may shift
             near = [column[min(count - 1, max(0, round(share * (count - 1) + k * apart)))] for k in (-1, 1)]
             error = math.hypot((near[1] - near[0]) / 2, f["uncertainty"][key + "_se"], math.sqrt(0.25 / rocks))
             expect_near(found, f["uncertainty"][key], 3 * error, f"{f['option']} against {f['against']}: {key}")
 
 
 def test_options_by_number():
-    """A uncertainty of the file that names an option by its number is of that option, whichever --option keeps"""
+    """An uncertain input of the file that names an option by its number keeps its option under --option"""
     belts = [[{"from_m": 0, "to_m": 80, "stand": wood(trees=[{**TREES[0], "per_ha": n}])}] for n in (300, 500)]
     what = measured(options=[{"name": n, "forest": b} for n, b in zip("ab", belts)],
                     uncertainty=[{"path": "options[1].forest[0].stand.trees[0].per_ha", "lo": 400, "hi": 600}])
@@ -704,7 +703,7 @@ def test_options_by_number():
 
 
 def test_what_is_not_there():
-    """What the scene has not is passed over, so that a stand can be exchanged; a missing item of many, too"""
+    """Missing items of a scene are skipped, so that a stand can be exchanged; also single missing items"""
     gone = [{"path": p, "lo": 0.1, "hi": 0.2} for p in ("forest[7].stand.trees[0].dbh_m", "forest[0].stand.shoots[0].dbh_m",
                                                         "options[other].forest[0].stand.trees[0].dbh_m",
                                                         "slope.materials[talus].rn")]
@@ -755,7 +754,7 @@ def test_outside():
 
 
 def test_refused():
-    """A range that is empty or impossible, an unknown path or word: named, with line and column"""
+    """An empty or impossible range, an unknown path or word: reported, with line and column"""
     for told, row in REFUSED.items():
         with Folder() as f:
             r = ceduo("--sensitivity", f.write("s.yaml", measured(uncertainty=[row])))

@@ -25,7 +25,7 @@ def test_set_rock_and_order():
 
 
 def test_set_blanks():
-    """Blanks around the = are ignored; others, and a path without a name, are not"""
+    """Blanks around the = are ignored; other blanks, and a path without a name, are errors"""
     plain = result(PAPER, "-n", 5, "-s", "rock.diameter_m=1", "-s", "title=a b")
     for sets in (["rock.diameter_m = 1", "title = a b"], ["rock.diameter_m =1", "title=  a b "], ["rock.diameter_m   =   1", "title ='a b'"]):
         expect_equal(differ(result(PAPER, "-n", 5, *[w for s in sets for w in ("-s", s)]), plain), [], sets)
@@ -40,7 +40,7 @@ def differ(a, b):
 
 
 def test_set_through_files():
-    """-s goes through file references, by [i] and by [name], and changes that place only"""
+    """-s follows file references, [i] and [name], and changes only that place"""
     def stools(*arguments):
         return [[s["stools_per_ha"] for s in o["stands"]] for o in result(*arguments, "-n", 1)["options"]]
     before = {p: p.read_bytes() for p in PROFILES.rglob("*.yaml")}
@@ -63,7 +63,7 @@ def test_set_through_files():
 
 
 def test_set_at_odds():
-    """A change that does not fit the rest of a good scene is named, with status 2; a bad scene stays bad input"""
+    """A change that does not fit the rest of a good scene is reported, with status 2; a bad scene remains bad input"""
     for sets, column, words in ((["forest[0].to_m=100"], 16, "forest[1].from_m: belts must not overlap"),
                                 (["release.x_m=140"], 13, "controls[0].x_m: 135 must lie beyond the release"),
                                 (["slope.vertices_m=[[0,100],[50,0]]"], 18, "13 segments for 1 stretches"),
@@ -76,7 +76,7 @@ def test_set_at_odds():
                                    " " * (column + 1) + "^\n"), done)
         expect_in(words, done.err)
         expect_equal(done.err.count("--set:"), 1, done.err)
-    both = ["-s", "forest[0].to_m=100", "-s", "forest[1].from_m=100"]  # either of them alone would not fit
+    both = ["-s", "forest[0].to_m=100", "-s", "forest[1].from_m=100"]  # each alone would not fit
     good("--check", *both, PAPER)
     with Folder() as f:
         path = f.write("s.yaml", scene(controls=[{"x_m": 500}]))
@@ -85,7 +85,7 @@ def test_set_at_odds():
 
 
 def test_set_by_name_twice():
-    """-s refuses a name that several belts have, and names their places; it takes one that is there once"""
+    """-s refuses a name of several belts, and lists their places; it accepts a unique one"""
     with Folder() as f:
         belts = [{"from_m": x, "to_m": x + 9, "stand": stand(name=n)} for x, n in ((10, "a"), (20, "b"), (30, "a"), (40, "a"))]
         path = f.write("s.yaml", scene(forest=belts))
@@ -97,11 +97,11 @@ def test_set_by_name_twice():
 
 
 def test_set_all():
-    """-s with [*] sets a value of every item of a list, here or in files; an empty list has none"""
+    """-s with [*] sets a value of every item of a list, here or in files; an empty list is unchanged"""
     four, one = "four-systems", [f"options[{i}].forest[0].stand.stools.per_ha=700" for i in range(8)]
     together, apart = (result(four, "-n", 20, *[w for s in sets for w in ("-s", s)]) for sets in
                        (["options[*].forest[*].stand.stools.per_ha=700"], one))
-    together["work"] = apart["work"] = None  # it has the time
+    together["work"] = apart["work"] = None  # it takes that long
     expect_equal(together, apart)
     with Folder() as f:
         belts = [{"from_m": x, "to_m": x + 9, "stand": stand()} for x in (10, 20)]
@@ -123,7 +123,7 @@ def bad_set_on(path, change, words):
 
 
 def test_set_spreads():
-    """-s makes a number a spread, whole or by its parts"""
+    """-s makes a number a distribution, whole or by its parts"""
     whole = result(PAPER, "-s", "rock.diameter_m={mean: 0.56, spread: 0.1, kind: uniform}")
     parts = result(PAPER, "-s", "rock.diameter_m.spread=0.1", "-s", "rock.diameter_m.kind=uniform")
     expect_equal(whole["options"], parts["options"])
@@ -136,7 +136,7 @@ def test_set_spreads():
 
 
 def test_set_base():
-    """-s reaches into a stand that starts from another; mappings merge, lists are replaced"""
+    """-s reaches into a stand with a base; mappings merge, lists are replaced"""
     with Folder() as f:
         f.write("base.yaml", stand(ceduo="stand/1", name="base"))
         built = {"base": "base.yaml", "stools": {"per_ha": 1500}}
@@ -181,7 +181,7 @@ def bad_set(value, words):
 
 
 def test_set_place():
-    """-s shows its own text with a caret under the fault"""
+    """-s shows its own text with a caret under the error"""
     done = ceduo("--batch", "-s", "rock.diameter_m=-1", PAPER)
     expect_equal(done.err, "--set:1:17: rock.diameter_m: -1 is below 0 m\n  rock.diameter_m=-1\n" + " " * 18 + "^\n")
 
@@ -195,7 +195,7 @@ def expect_silent(*arguments, **options):
 
 
 def test_unusual():
-    """A number beyond what is usual is computed, with a warning on standard error: of a file, of -s, of a row of --each"""
+    """A number beyond the usual range is computed, with a warning on standard error: from a file, -s, a row of --each"""
     tall = {"from_m": 10, "to_m": 70, "stand": "tall.yaml"}
     with Folder() as f:
         f.write("plain.yaml", scene())
@@ -230,7 +230,7 @@ def test_unusual():
 
 
 def test_shipped_are_usual():
-    """No scene and no stand that comes with the program has an unusual value"""
+    """No shipped scene or stand has an unusual value"""
     with Folder() as f:
         expect_silent(*(PROFILES / "scenes").glob("*.yaml"))
         for path in (PROFILES / "stands").glob("*.yaml"):

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The short page that --batch prints: the page of each scene that comes with the program as it is in pages/*.txt, its lines at any
-width, and that its figures are those of JSON and of --sensitivity. `test_short.py --write` writes pages/*.txt again: read them
-aloud, as who must sign them would."""
+"""The short page of --batch: the pages of all shipped scenes are in pages/*.txt; line widths; and its figures equal those of
+JSON and --sensitivity. `test_short.py --write` rewrites pages/*.txt: read them aloud afterwards."""
 import functools
 import math
 import re
@@ -24,24 +23,24 @@ def page_of(scene, *arguments):
     return good("--batch", "-n", ROCKS, *arguments, scene).out
 
 
-shipped = functools.cache(page_of)  # of a file that stays what it is
+shipped = functools.cache(page_of)  # cached text of a file that never changes
 
 
 def above(page):
-    """What stands above what is assumed."""
+    """Return the lines above the assumptions."""
     return re.split(r"(?m)^(?:ASSUMED|IPOTESI|NOTE|NOTA|MORE|ALTRO) ", page)[0]
 
 
 def test_golden():
-    """The pages of the scenes that come with the program, a file each"""
+    """The pages of the shipped scenes, one file each"""
     for scene in SCENES:
         wanted = (PAGES / f"{scene.stem}.txt").read_text(encoding="utf-8")
         expect_equal(shipped(scene), wanted, scene.name)
 
 
 def test_lines():
-    """One screen of one option, 14 lines and 2 for each of several (16 with blocks), no wider than 80, in both languages and in ASCII"""
-    signs = set()  # of pages in ASCII: a page with what is not known, which takes long, is only for signs that no page before had
+    """One screen for one option, 14 lines and 2 per option (16 with blocks), at most 80 wide, in both languages and in ASCII"""
+    signs = set()  # pages in ASCII: a slow page with uncertainty only for characters that no earlier page had
     for scene in SCENES:
         options, shared = len(result(scene, "-n", 2)["options"]), 16 if "\nblocks:" in scene.read_text(encoding="utf-8") else 14
         whole, few = shipped(scene), ("-n", 20, "-s", "uncertainty=none")
@@ -59,7 +58,7 @@ def test_lines():
 
 
 def test_figures():
-    """What the page says is what JSON holds: of 1000 with both errors, energies, ADC, what is stopped"""
+    """The page equals JSON: per 1000 with both errors, energies, ADC, stopped rocks"""
     run, page = result("-n", ROCKS, PAPER), shipped(PAPER)
     control = run["options"][0]["controls"][0]
     wood, bare, index = (control[k] for k in ("wooded", "bare", "index"))
@@ -79,16 +78,16 @@ def test_figures():
     expect(re.search(rf"in {window['failing_years']} of 20 years more than 50 of 1000 rocks exceed 50 kJ$", page, re.M), page)
     expect(re.search(rf"^  mean {1000 * window['mean']:.0f} ±\d+ \(range \d+–\d+\) of 1000, worst {1000 * window['worst']:.0f} in year "
                      rf"{window['worst_year']}; ", page, re.M), page)
-    few = ("-n", 32, "-s", "years.first=1", "-s", "years.last=2", PAPER)  # all points are within the bound of a page
+    few = ("-n", 32, "-s", "years.first=1", "-s", "years.last=2", PAPER)  # all points fit the limit of a page
     uncertainty = next(f for f in good("--sensitivity", "-f", "json", *few).json()[0]["figures"] if f["figure"] == "exceed_probability")
     band = f"{1000 * uncertainty['uncertainty']['p5']:.0f}–{1000 * uncertainty['uncertainty']['p95']:.0f}"
     expect_in(f" Uncertain inputs: {band}.", " ".join(good("--batch", *few).out.split()), "how sure")
 
 
 def test_over_the_years():
-    """What may be true of the mean over the years stands beside that mean: the band is its own by both errors, not that of today"""
+    """The range of the mean over the years is next to that mean: it has its own band with both errors, not today's"""
     few = ("-n", 32, "-s", "years.first=1", "-s", "years.last=2", "--option", "simple coppice", "--option", "selection coppice",
-           "rotation")  # all points are within the bound of a page
+           "rotation")  # all points fit the limit of a page
     figures = good("--sensitivity", "--years", "-f", "json", *few).json()[0]["figures"]
     page = good("--batch", "--years", *few).out
     for option in result("--years", *few)["options"]:
@@ -102,7 +101,7 @@ def test_over_the_years():
 
 
 def test_beside_the_threshold():
-    """An ADC is written with as many digits as show on which side of the threshold it lies, as on the whole page"""
+    """An ADC has enough digits to show its side of the threshold, as on the whole page"""
     adc = result("-n", 2, "rotation")["options"][0]["stands"][0]["adc"]["adc_m"]
     for threshold in (adc * 0.9999, adc * 1.0001):
         page = good("--batch", "-n", 2, "-s", f"simulation.threshold_m={threshold}", "rotation").out
@@ -111,7 +110,7 @@ def test_beside_the_threshold():
 
 
 def test_answers():
-    """Yes, no, it depends, nothing, no limit: each has its words, and says what is not known where that was not computed"""
+    """Yes, no, it depends, no answer, no limit: each has its words, and says if uncertainty was not computed"""
     with Folder() as f:
         def first(**changes):
             return next(line for line in page_of(f.write("s.yaml", {**wooded_scene(), **changes})).splitlines() if line.startswith("  "))
@@ -127,7 +126,7 @@ def test_answers():
 
 
 def test_several_scenes():
-    """Several scenes: a table of their verdicts, then their pages as each alone has; of one that is left no table"""
+    """Several scenes: a table of their verdicts, then each page as alone; for one remaining scene no table"""
     pages = [shipped(scene) for scene in (PAPER, PROFILES / "scenes/road-below.yaml")]
     both = good("--batch", "-n", ROCKS, PAPER, "road-below").out
     expect(both.endswith("\n\n" + "\n".join(pages)), both)
@@ -138,7 +137,7 @@ def test_several_scenes():
 
 
 def test_profiles_of_one_place():
-    """Scenes above one road: its verdict first, that of the worst profile, then the profiles, the worst first; in the report, too"""
+    """Scenes above one road: its verdict first, the worst profile's, then the profiles, worst first; in the report, too"""
     road = {"x_m": 90, "name": "road", "accepted_kJ": 60}
     sites = {"calm": wooded_scene(title="calm", controls=[road], release={"x_m": 85, "vx_m_s": 2}),  # a fall of 4 m: 24 kJ at most
              "bare": wooded_scene(title="bare", controls=[road], forest=None),
@@ -163,7 +162,7 @@ def test_profiles_of_one_place():
 
 
 def test_bounded():
-    """-n bounds everything that the page simulates, and the page says with how many rocks; a text that has no room is left out and counted"""
+    """-n limits all simulations of the page, and the page prints the number of rocks; texts that do not fit are counted"""
     page = good("--batch", "-n", 7, FOUR).out
     expect_in("today (7 rocks)", page)
     expect_in("(7 each)", " ".join(page.split()))
@@ -173,7 +172,7 @@ def test_bounded():
 
 
 def test_details():
-    """--details holds the answer, too, and says nothing twice: the slope without forest once, not once for each option"""
+    """--details includes the answer, and repeats nothing: the bare slope appears once"""
     text = good(*WHOLE, "-n", 50, FOUR).out
     sentences = re.findall(r"[A-Z][^.:]{30,}[.:]", " ".join(text.split()))
     expect_equal(len(re.findall(r"(?m)^  of 1000 .*without forest$", text)), 1, "tables without forest")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Signals end the program with nothing half done; progress goes to a terminal only."""
+"""Signals end the program without half results; progress goes only to a terminal."""
 import os
 import pty
 import re
@@ -17,7 +17,7 @@ from runs import ENDLESS, FOUR, PAPER
 
 
 def on_terminal(arguments, stop, which):
-    """What the program writes to a terminal that is its stdout or stderr, until stop(text, seconds); and its status."""
+    """Return the program's output on a terminal as its stdout or stderr, until stop(text, seconds); and its status."""
     master, slave = pty.openpty()
     streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, which: slave}
     with subprocess.Popen([CEDUO, *map(str, arguments)], stdin=subprocess.DEVNULL, env=environment(), **streams) as p:
@@ -112,13 +112,13 @@ def test_hang_up():
 
 
 def test_interrupt_endless():
-    """SIGINT where rocks never come to rest ends the program at once"""
+    """SIGINT ends the program quickly even if rocks never stop"""
     with Folder() as f:
         interrupted(signal.SIGINT, f.write("endless.yaml", ENDLESS))
 
 
 def test_nohup():
-    """A signal that the caller switched off stays off"""
+    """A signal that the caller ignores stays ignored"""
     old = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
         with subprocess.Popen([CEDUO, "--batch", "-n", "100000", str(PAPER)], stdout=subprocess.PIPE,
@@ -132,7 +132,7 @@ def test_nohup():
 
 
 def test_interrupt_between():
-    """A signal during the second scene leaves the first one's result and prints nothing half"""
+    """A signal during the second scene keeps the first one's result and prints no half result"""
     with subprocess.Popen([CEDUO, "--batch", "-f", "json", str(FOUR), "-", "-n", "1000000"], stdin=subprocess.PIPE,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment()) as p:
         time.sleep(0.2)

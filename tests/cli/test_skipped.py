@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a scene does not need is not computed: by the counters of `work`, and where nothing is counted, by a million rocks
-that cannot be flown in the processor time that the program is given."""
+"""Unneeded work is skipped: by the counters of `work`, or else by a million rocks that do not fit the allowed processor time."""
 import resource
 import sys
 from pathlib import Path
@@ -10,12 +9,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import PROFILES, SLOWER, expect, expect_equal, good, result, run_all  # noqa: E402
 
 MANY = 1_000_000
-SECONDS = 5 * SLOWER  # of processor time: a million rocks take more, what is asked here none
+SECONDS = 5 * SLOWER  # processor seconds: a million rocks take more, these requests none
 RESERVES = "forest[0].stand.trees[0].per_ha"
 
 
 def bounded(*arguments, **options):
-    """The program on one thread, ended where it takes more than SECONDS."""
+    """Run the program on one thread, ended after SECONDS."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
 
@@ -23,7 +22,7 @@ def bounded(*arguments, **options):
 
 
 def test_no_rocks():
-    """Questions that no rock answers fly none: the index by stands, pictures of stands, the ADC that is looked for"""
+    """Requests without rocks simulate none: the index from stands, pictures of stands, a search for the ADC"""
     for question in (["--batch", "-f", "csv", "--rows", "stands"], ["--plot", "stand"], ["--check"],
                      ["--find", f"{RESERVES}=1:5000", "--goal", "adc"], ["--find", f"{RESERVES}=1:5000", "--goal", "free-run"]):
         bounded(*question, *([] if "--check" in question else ["-n", MANY]), "-j", 1, "paper-site")
@@ -36,7 +35,7 @@ def test_index_shares_one_run():
 
 
 def test_options_not_asked():
-    """An option that is not asked for is not flown: each has a run, and one with the other energy law, beside the bare slope's"""
+    """Unselected options are not simulated: each has a run, and one with the other energy law, plus the bare slope's"""
     one = result("-n", 500, "--option", "large reserves", "four-systems")["work"]
     all_ = result("-n", 500, "four-systems")["work"]
     expect_equal((one["runs"], one["rocks_flown"], all_["runs"], all_["rocks_flown"]), (3, 1500, 17, 8500))
@@ -47,7 +46,7 @@ def test_same_forest():
     forest = "[{from_m: 0, to_m: 60, stand: ads-1}]"
     work = result("-n", 200, "-s", f"options=[{{name: a, forest: {forest}}}, {{name: b, forest: {forest}}}, {{name: c, forest: []}}]",
                   four())["work"]
-    expect_equal((work["runs"], work["runs_reused"]), (3, 4))  # the bare slope, the forest, and that with the other energy law
+    expect_equal((work["runs"], work["runs_reused"]), (3, 4))  # bare slope, forest, forest with the other energy law
 
 
 def four():
@@ -55,7 +54,7 @@ def four():
 
 
 def test_years_unchanged():
-    """Years whose stand did not change are not flown again: 27 years and 4 systems, 4 x 26 forests and the bare one at most"""
+    """Years with an unchanged stand are not simulated again: 27 years and 4 systems, at most 4 x 26 forests and the bare slope"""
     work = result("--years", "0:26", "-n", 50, "rotation")["work"]
     expect(work["runs"] <= 1 + 4 * 27 and work["runs_reused"] > 0, work)
     still = result("--years", "0:50", "-n", 50, "paper-site")["work"]
@@ -65,15 +64,15 @@ def test_years_unchanged():
 
 
 def test_stems_off_the_way():
-    """Stems are made up as a rock comes to them: hardly more than it hits"""
+    """Stems are drawn lazily: hardly more than a rock hits"""
     found = result("-n", 1000, "paper-site")
     contacts = found["options"][0]["controls"][0]["wooded"]["contacts"]["mean"]
-    drawn = found["work"]["stems_drawn"] / 2000  # with the other energy law once more
+    drawn = found["work"]["stems_drawn"] / 2000  # again with the other energy law
     expect(contacts <= drawn <= 3 * contacts, f"{drawn} drawn, {contacts} hit on the way to the control")
 
 
 def test_nothing_to_draw():
-    """A spread of 0 is no spread, spin is nothing to the law lumped, a spread of diameters of 0 costs no draw: the same bytes"""
+    """A spread of 0 is no spread, lumped ignores spin, a diameter spread of 0 needs no draw: equal bytes"""
     def out(*sets):
         words = [w for s in sets for w in ("-s", s)]
         text = result("-n", 300, *words, "paper-site")
@@ -89,7 +88,7 @@ def test_nothing_to_draw():
 
 
 def test_tolerance_stops():
-    """With a tolerance no more is flown than it asks for"""
+    """A tolerance limits the simulation"""
     found = result("-e", 0.05, "-n", MANY, "paper-site")
     expect(found["rocks"] < 5000, found["rocks"])
 

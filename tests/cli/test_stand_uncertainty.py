@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A stand says itself what is not known of it."""
+"""A stand has its own uncertain inputs."""
 import json
 
 from harness import DONE, INPUT, Folder, ceduo, expect, expect_equal, expect_in, run_all, scene, stand
@@ -35,7 +35,7 @@ def belt(stand, at=0):
 
 
 def test_one_input_for_all_belts():
-    """The rows of a stand hold wherever it stands, together: one input each"""
+    """The rows of a stand apply wherever it is used, together: one input each"""
     with Folder() as f:
         f.write("c.yaml", coppice(STOOLS, TREES))
         what = site([belt("c.yaml")], [belt("c.yaml"), belt({"base": "c.yaml", "name": "again"}, 40)])
@@ -54,7 +54,7 @@ def test_two_stands():
 
 
 def test_the_scene_goes_before():
-    """What the scene names has the scene's range; uncertainty: none of the scene switches off the stand's"""
+    """The scene's range overrides the stand's; uncertainty: none of the scene disables it"""
     with Folder() as f:
         f.write("c.yaml", coppice(TREES))
         own = {"path": "options[*].forest[0].stand.trees[0].per_ha", "lo": 70, "hi": 90}
@@ -66,7 +66,7 @@ def test_the_scene_goes_before():
 
 
 def test_none_instead_of_the_base():
-    """uncertainty: none over a base takes its rows away; all items of a list by a star"""
+    """uncertainty: none over a base removes its rows; a star means all items of a list"""
     with Folder() as f:
         f.write("c.yaml", coppice(TREES))
         expect_equal(inputs(f, site([belt({"base": "c.yaml", "uncertainty": "none"})])), {})
@@ -78,14 +78,14 @@ def test_none_instead_of_the_base():
 
 
 def test_what_is_not_there():
-    """A row about a class that the stand has not is passed over"""
+    """A row about a missing class is skipped"""
     with Folder() as f:
         f.write("c.yaml", coppice({**TREES, "path": "trees[3].per_ha"}))
         expect_equal(inputs(f, site([belt("c.yaml")])), {})
 
 
 def test_no_change_of_a_run():
-    """Rows change nothing but --sensitivity"""
+    """Rows affect only --sensitivity"""
     with Folder() as f:
         outs = []
         for rows in ([], [STOOLS]):
@@ -97,7 +97,7 @@ def test_no_change_of_a_run():
 
 
 def test_refused():
-    """What is wrong is told once, in the stand's file"""
+    """Errors are reported once, in the stand's file"""
     wrong = [({**TREES, "path": "rock.mass_kg"}, "c.yaml", "uncertainty[0].path: 'rock.mass_kg' affects no result"),
              ({**TREES, "path": "uncertainty[0].lo"}, "c.yaml", "uncertainty[0].path: 'uncertainty[0].lo' affects no result"),
              ({**TREES, "lo": 130}, "c.yaml", "uncertainty[0].hi: the range is empty"),

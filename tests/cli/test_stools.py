@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a change of the stools means: of shoots that are given per stool, and per hectare. What is unlikely about a stand."""
+"""Changing the stools: shoots given per stool, or per hectare. Warnings of unlikely stands."""
 import json
 import sys
 from pathlib import Path
@@ -14,7 +14,7 @@ NUMBERS = (500, 2000, 8000)
 
 
 def coppice(stools=2500, spacing=0.35, **shoots):
-    """3 shoots on each stool, or 7500 a hectare."""
+    """Return a stand with 3 shoots per stool, or 7500 per hectare."""
     shoots = shoots or {"per_stool": 3}
     return stand(stools={"per_ha": stools, "spacing_m": spacing}, trees=None, energy=None,
                  shoots=[{**shoots, "dbh_m": 0.07, "height_m": 8}])
@@ -26,14 +26,14 @@ def wood(of, **more):
 
 
 def answer(*arguments):
-    """Stems and stools a hectare, and the share of 500 rocks that arrive with too much energy."""
+    """Return stems and stools per hectare, and the share of 500 rocks that arrive with too much energy."""
     option = result(*arguments)["options"][0]
     return (option["stands"][0]["stems_per_ha"], option["stands"][0]["stools_per_ha"],
             option["controls"][-1]["wooded"]["exceed_probability"])
 
 
 def four_ways(f, of, number):
-    """-s, base, the form and --find, which gives the goal alone."""
+    """Change by -s, base, the form and --find, which returns only the goal."""
     f.write("stand.yaml", {"ceduo": "stand/1", **of})
     f.write("scene.yaml", wood("stand.yaml"))
     f.write("based.yaml", wood({"base": "stand.yaml", "stools": {"per_ha": number}}))
@@ -56,18 +56,18 @@ def check_ways(of, shoots_of):
 
 
 def test_four_ways():
-    """-s, --find, base and the form agree on what stools are: with three shoots on each they bring their shoots along"""
+    """-s, --find, base and the form agree: with three shoots per stool, stools bring their shoots"""
     shares = check_ways(coppice(), lambda number: 3 * number)
     expect(shares[-1] > 2 * shares[0], "sixteen times the stems stop hardly more:", shares)
 
 
 def test_four_ways_per_ha():
-    """Shoots that are given per hectare stay as many in all four ways"""
+    """Shoots given per hectare stay constant in all four ways"""
     check_ways(coppice(stools=500, per_ha=8000), lambda number: 8000)
 
 
 def test_shipped():
-    """The shipped stands bring their shoots along; the paper's plots keep those that were counted"""
+    """The shipped stands give shoots per stool; the paper's plots keep the counted ones"""
     for name, shoots, trees in (("simple-coppice", 2.695 * 1000, 60), ("ads-1", 8326, 750)):
         made = wood({"base": name, "stools": {"per_ha": 1000}})
         with Folder() as f:
@@ -81,7 +81,7 @@ def refused(f, of):
 
 
 def test_one_of_both():
-    """Both keys, none of them, stools that are missing, and less than one shoot a stool are refused"""
+    """Both keys, neither, missing stools, and less than one shoot per stool are refused"""
     with Folder() as f:
         expect_in("shoots[0].per_ha: per_stool already says this", refused(f, coppice(per_stool=3, per_ha=7500)))
         expect_in("'per_ha' or 'per_stool' is missing", refused(f, coppice(dbh_sd_m=0)))
@@ -97,7 +97,7 @@ def test_one_of_both():
 
 
 def test_set_replaces():
-    """--set of one of the two takes the other out, and no stools have no shoots"""
+    """--set of one key removes the other, and no stools have no shoots"""
     with Folder() as f:
         path = f.write("s.yaml", wood(coppice()))
         shoots = "forest[0].stand.shoots[0]."
@@ -107,13 +107,13 @@ def test_set_replaces():
 
 
 def energy(f, of):
-    """Mean energy of a released rock, by the rocks that --sensitivity simulates."""
+    """Mean energy per released rock, with the rocks of --sensitivity."""
     run = result("-n", 400, f.write("run.yaml", wood(of)))
     return run["options"][0]["controls"][-1]["wooded"]["energy_per_released_kJ"]["mean"]
 
 
 def test_uncertainty():
-    """Where stools are in doubt, shoots given per stool go along; per_ha and per_stool are in doubt whichever is given"""
+    """With uncertain stools, shoots per stool follow; per_ha and per_stool can be uncertain whichever is given"""
     def of(stools, **given):
         return {**coppice(stools, **given), "energy": {"model": "brauner", "u_J_m3": 100000}}
     shoots = "forest[0].stand.shoots[0]."
@@ -136,7 +136,7 @@ def test_uncertainty():
 
 
 def test_one_uncertainty():
-    """A row about one of the two keys takes the place of the range that the other has where it is assumed"""
+    """A row about one of the two keys replaces the default range of the other"""
     of = coppice()
     of["shoots"][0]["source"] = {"kind": "assumed", "text": "a guess"}
     with Folder() as f:
@@ -153,9 +153,9 @@ def warnings_of(f, of):
 
 
 def test_unlikely():
-    """Basal area, shoots a stool, h/d and the thickest dbh are warned of just beyond their limits, not at them"""
+    """Basal area, shoots per stool, h/d and the largest dbh cause warnings just beyond their limits, not at them"""
     tree = {"per_ha": 100, "dbh_m": 0.2, "height_m": 12, "volume_m3": 0.2}
-    area = 60 / (3.141592653589793 * 0.25 * 0.04)  # trees of 20 cm that have 60 m2
+    area = 60 / (3.141592653589793 * 0.25 * 0.04)  # trees of 20 cm with 60 m2
 
     def trees(**changes):
         return stand(stools=None, shoots=None, trees=[{**tree, **changes}])

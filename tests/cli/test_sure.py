@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--find --sure: the value that reaches a goal in a share of the plausible cases.
 
-Trees of 0.2 m a hectare and a rock of 0.8 m: of n and m trees of two classes the ADC is 10000/(n + m) m. Where m may be 1000 to
-2000, it is below 4 m in a share s of that from n = 1500 - 1000(1 - s) on. The others are held against scenes drawn at random."""
+Trees of 0.2 m per hectare and a rock of 0.8 m: with n and m trees of two classes the ADC is 10000/(n + m) m. If m may be 1000
+to 2000, it is below 4 m with probability s from n = 1500 - 1000(1 - s) on. The other cases are compared with random scenes."""
 import json
 import math
 import random
@@ -37,7 +37,7 @@ def find(mapping, goal, sure, *others, path=PER_HA.format(0), lo=1, hi=5000, for
 
 
 def test_known_law():
-    """The number of trees that is sure enough, in closed form; the least sure is what the worst case wants"""
+    """The number of trees at this probability, in closed form; the minimum is the worst case's"""
     for sure in (0.05, 0.5, 0.9, 0.99):
         found = find(wood(), "adc=4", sure)
         answer = found["sure"]
@@ -51,25 +51,25 @@ def test_known_law():
 
 
 def test_free_run():
-    """The chance of a free run is one of n + m trees, too: as many fewer of the one as there are more of the other"""
+    """The probability of a free run depends on n + m trees, too: fewer of one need more of the other"""
     for sure in (0.1, 0.9):
         found = find(wood(), "free-run=0.001", sure)
         expect_near(found["sure"]["value"], found["value"] - 1000 * (1 - sure), 3 * STEPS, sure)
 
 
 def largest(*controls, contact_model="index", goal="energy=30", forest=()):
-    """Of the diameter, where the density is in doubt."""
+    """Find the diameter, with an uncertain density."""
     mapping = wood(uncertainty=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}], simulation={"contact_model": contact_model})
     mapping |= {"forest": list(forest), "controls": [{"x_m": x, "accepted_kJ": 20} for x in controls]}
     return find(mapping, goal, 0.9, "-n", 200, path="rock.diameter_m", lo=0.1, hi=1)
 
 
 def test_largest():
-    """Where less is surer the value is the largest; beyond the range none is sure, and the nearest is named"""
+    """If smaller values are safer the result is the largest; out of range there is none, and the nearest is named"""
     for model in ("index", "stems"):
         found = largest(90, contact_model=model)
         expect_equal((found["sure"]["found"], found["sure"]["side"]), (True, "largest"), model)
-        # energy goes with the mass: with 2900 kg/m3, nine of ten cases are below, instead of 2600
+        # energy is proportional to mass: with 2900 kg/m3 instead of 2600, nine in ten cases are below
         expect_near(found["sure"]["value"], found["value"] * (2600 / 2900) ** (1 / 3), 0.01 * found["value"], model)
     none = find(wood(), "adc=4", 0.9, hi=1000)["sure"]
     expect_equal((none["found"], none["value"], none["probability"], none["nearest"]), (False, None, None, 1000))
@@ -79,7 +79,7 @@ def test_largest():
 
 
 def test_worst_control():
-    """Of two places the worse one counts, whichever comes first"""
+    """The worse of two places counts, in any order"""
     upper, lower = (largest(x)["sure"]["value"] for x in (30, 90))
     expect(abs(upper - lower) > 0.02, (upper, lower))
     for controls in ((30, 90), (90, 30)):
@@ -87,7 +87,7 @@ def test_worst_control():
 
 
 def test_no_energy():
-    """Where no rock arrives, or the index leaves nothing, any value is sure"""
+    """If no rock arrives, or the index leaves no energy, every value suffices"""
     thick = {"from_m": 0, "to_m": 90, "stand": stand(stools=None, shoots=None, trees=[{"per_ha": 3000, "dbh_m": 0.5, "height_m": 20}])}
     for model in ("index", "stems"):
         found = largest(90, contact_model=model, goal="energy=0.001", forest=[thick])["sure"]
@@ -95,7 +95,7 @@ def test_no_energy():
 
 
 def test_nothing_in_uncertainty():
-    """Without uncertainty, or where the value itself is all that is in doubt, the plain answer holds, and that is said"""
+    """Without uncertainty, or if only the value itself is uncertain, the plain answer holds, with a message"""
     for uncertainty in ((), ({"path": PER_HA.format(0), "lo": 500, "hi": 1500},)):
         expect_equal(find(wood(uncertainty), "adc=4", 0.9)["sure"], None, uncertainty)
         expect_in("no other input is uncertain", find(wood(uncertainty), "adc=4", 0.9, form="table"), uncertainty)
@@ -111,7 +111,7 @@ BOUNDS = {PER_HA.format(1): (50, 250), "rock.density_kg_m3": (2200, 2900), "fore
 
 
 def test_error_on_the_page():
-    """The page shows half the 95 % interval of the share, 1.96 standard errors"""
+    """The page prints half the 95 % interval of the share, 1.96 standard errors"""
     what = wood([{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in BOUNDS.items()])
     asked = (what, "exceed=0.2", 0.8, "-n", 50)
     answer, page = find(*asked)["sure"], find(*asked, form="table")
@@ -120,8 +120,7 @@ def test_error_on_the_page():
 
 
 def test_error_of_the_value():
-    """The interval of the value: it holds the value in closed form with 19 of 20 seeds, and without an error of the points that value
-    alone"""
+    """The interval contains the closed form for 19 in 20 seeds, and without point error only the value"""
     sure, held = 0.8, 0
     for seed in range(1, 21):
         answer = find(wood(), "adc=4", sure, "--seed", seed)["sure"]
@@ -134,7 +133,7 @@ def test_error_of_the_value():
 
 
 def test_error_by_the_rocks():
-    """With few rocks the interval holds the value that all seeds have in common, and is about as wide as they differ"""
+    """With few rocks the interval contains the common value of all seeds, and is about as wide as their spread"""
     mapping = wood([{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in BOUNDS.items()])
     mapping["forest"][0]["stand"]["trees"] = [{"per_ha": 150, "dbh_m": 0.2, "height_m": 12}] * 2
     answers = [find(mapping, "exceed=0.2", 0.8, "-n", 50, "--seed", seed, lo=100, hi=3000)["sure"] for seed in range(1, 13)]
@@ -148,7 +147,7 @@ def test_error_by_the_rocks():
 
 
 def test_as_scenes_at_random():
-    """At the value named so many of 80 scenes drawn at random reach the goal, within three errors; at the plain one fewer"""
+    """At this value the required number of 80 random scenes meet the goal, within three errors; at the plain one fewer"""
     mapping = wood([{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in BOUNDS.items()])
     mapping["forest"][0]["stand"]["trees"] = [{"per_ha": 150, "dbh_m": 0.2, "height_m": 12}] * 2
     found = find(mapping, "exceed=0.2", 0.8, "-n", 400, hi=3000)
@@ -170,7 +169,7 @@ def test_as_scenes_at_random():
 
 
 def test_what_is_too_much():
-    """Where anything is withstood no rock has too much, whatever is true; where nothing is, all that arrive have"""
+    """With an unlimited accepted energy no rock exceeds it in any case; with none all arrivals do"""
     strong, weak = (wood() | {"controls": [{"x_m": 90, "accepted_kJ": kj}]} for kj in (1e6, 1e-6))
     answer = find(strong, "exceed=0.2", 0.9, "-n", 50)["sure"]
     expect_equal((answer["value"], answer["probability"]), (1, 1))
@@ -178,7 +177,7 @@ def test_what_is_too_much():
 
 
 def test_over_a_rotation():
-    """Over a rotation: the mean of its years; of the mean energy that is refused"""
+    """Over a rotation: the mean over its years; refused for the mean energy"""
     with Folder() as f:
         path = f.write("s.yaml", wood())
         r = ceduo("--find", f"{PER_HA.format(0)}=1:100", "--goal", "energy=5", "--years", "--sure", "0.9", path)
@@ -192,7 +191,7 @@ def test_over_a_rotation():
 
 
 def test_worst_year():
-    """What hangs on the index is that of the worst year: where what is in doubt changes nothing of it, as without"""
+    """A goal of the index is the worst year's: if uncertain inputs do not affect it, as without them"""
     mapping = wood(uncertainty=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}])
     measured = {"source": {"kind": "measured", "text": "on this slope"}}
     wooded = {"from_m": 0, "to_m": 90, "stand": {"base": "coppice-with-standards", "growth": measured}}
@@ -208,7 +207,7 @@ def test_worst_year():
 
 
 def test_share_in_the_worst_year():
-    """Shares of the rocks in the worst year: what is found, put into the scene, has a worst year that just keeps to the goal"""
+    """Shares of the rocks in the worst year: with the found value in the scene the worst year just meets the goal"""
     mapping = wood([]) | {"controls": [{"x_m": 90, "accepted_kJ": 120}]}
     mapping["forest"] = [{"from_m": 0, "to_m": 90, "stand": {"base": "coppice-with-standards", "energy": {"offset": "whole"}}}]
     path, rocks = "forest[0].stand.cutting.stay_per_ha[0]", 400
@@ -230,16 +229,16 @@ def test_share_in_the_worst_year():
     expect(worst <= goal and goal - worst < 3 * math.sqrt(goal * (1 - goal) / rocks), worst, goal)
     expect(not mean["found"] or mean["value"] < found["value"], "the mean keeps to it earlier", mean)
     expect_in("in the worst of the years ahead", page)
-    if not FULL:  # ten times what comes before; test_worst_year() has an index that is sure
+    if not FULL:  # ten times earlier ones; test_worst_year() has a certain index
         return
     mapping["uncertainty"] = [{"path": "controls[0].accepted_kJ", "lo": 100, "hi": 140}]
-    # The largest of 20 years of 32 rocks is too large, by the same rocks at all points: of many seeds none is found.
+    # The maximum of 20 years of 32 rocks is biased upward, by the same rocks at all points: many seeds find none.
     sure = find(mapping, f"worst-exceed={goal}", 0.5, "-n", 100, "--seed", 6, path=path, lo=10, hi=600)["sure"]
     expect(sure["found"] and sure["value_lo"] and sure["value_lo"] <= found["value"] <= sure["value_hi"], "half of what may be accepted is above the scene's", sure, found)
 
 
 def test_threads():
-    """The same on one, two and three threads"""
+    """Equal results on one, two and three threads"""
     mapping = wood([{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in BOUNDS.items()])
     one, *others = (find(mapping, "exceed=0.2", 0.8, "-n", 50, "-j", j, hi=300) for j in (1, 2, 3))
     for other in others:
@@ -247,7 +246,7 @@ def test_threads():
 
 
 def test_refused():
-    """What is no share, and what has nothing to search"""
+    """Invalid shares, and requests without a search"""
     for sure, told in (("0", "0 is not a share"), ("90", "90 is not a share"), ("-1", "-1 is not a share"), ("x", "'x' is not a number"),
                        ("nan", "not a number")):
         r = ceduo("--find", f"{PER_HA.format(0)}=1:9", "--goal", "adc", f"--sure={sure}", "paper-site")
@@ -259,7 +258,7 @@ def test_refused():
 
 
 def test_page():
-    """The page names both values; the second with its share"""
+    """The page prints both values; the second with its share"""
     page = find(wood(), "adc=4", 0.9, form="table")
     expect(re.search(r"per_ha = 1501 .* in 90 % of plausible cases: (139\d|140\d|141\d) \(reaches the goal in 9[01] %, ±\d; with this error the value is 1[34]\d\d to 14\d\d\)", page), page)
 

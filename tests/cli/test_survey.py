@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--survey: from a CSV of sample plots to a stand that scenes take, and what is refused."""
+"""--survey: from a CSV of sample plots to a stand for scenes, and errors."""
 import json
 import math
 import re
@@ -34,7 +34,7 @@ def survey(f, content, *arguments, **more):
 
 
 def read(*arguments, **more):
-    """A survey that is read: its standard error is the line that says how, which is the first comment."""
+    """Read a survey: its standard error is the line of understanding, which is the first comment."""
     r = ceduo("--survey", *arguments, **more)
     expect_equal(r.status, DONE, r)
     expect_equal(len(r.err.splitlines()), 1, r)
@@ -44,7 +44,7 @@ def read(*arguments, **more):
 
 
 def stand_of(f, text):
-    """The stand as the program reads it: --set takes YAML, and JSON of the scene's stands has its figures."""
+    """Return the stand as the program reads it: --set accepts YAML, and JSON of the scene's stands has its figures."""
     f.write("stand.yaml", text)
     site = scene(slope={"vertices_m": [[0, 70], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.9}]}, controls=[{"x_m": 90}],
                  forest=[{"from_m": 0, "to_m": 60, "stand": "stand.yaml"}])
@@ -59,7 +59,7 @@ def without_comments(text):
 
 
 def by_hand(pick):
-    """Mean and standard error over the plots of what is counted, per hectare of the map"""
+    """Return mean and standard error over the plots, per hectare of the map"""
     each = [len(pick(stems)) / (area * math.cos(math.radians(slope))) * 10000 for area, slope, stems in STEMS.values()]
     return statistics.mean(each), statistics.stdev(each) / math.sqrt(len(each))
 
@@ -73,7 +73,7 @@ def stools(stems):
 
 
 def gamma_share(x, mean, sd):
-    """The share of a gamma law of this mean and deviation that is below x: its series."""
+    """Return the gamma probability below x for this mean and deviation, by its series."""
     shape, scale = (mean / sd) ** 2, sd**2 / mean
     term = total = 1 / shape
     for n in range(1, 500):
@@ -83,7 +83,7 @@ def gamma_share(x, mean, sd):
 
 
 def test_densities():
-    """Stools, shoots and trees per hectare of the map, a plot without stems among them; the standard errors are its doubt"""
+    """Stools, shoots and trees per hectare of the map, with one empty plot; standard errors are the uncertainty"""
     with Folder() as f:
         text = survey(f, table()).out
         stand, path = stand_of(f, text)
@@ -95,7 +95,7 @@ def test_densities():
         mean, se = by_hand(stools)
         expect(se > mean / 3, "a gamma law where the error is above a third of the mean", mean, se)
         found, normal = inputs["forest[0].stand.stools.per_ha"], (1 + math.erf(-3 / math.sqrt(2))) / 2
-        for end, share in (("lo", normal), ("hi", 1 - normal)):  # where three standard deviations of a normal one would be
+        for end, share in (("lo", normal), ("hi", 1 - normal)):  # three standard deviations of a normal law
             expect_near(gamma_share(found[end], mean, se), share, 1e-5, end)
         expect_in("forest[0].stand.trees[1].per_ha", list(inputs))
         expect_in("stools.spacing_m, mean: 0.35, sd: 0.05", text)  # of 0.3 and 0.4
@@ -103,9 +103,9 @@ def test_densities():
 
 
 def test_rare():
-    """A class of 2.5 errors has a gamma law, which stays above 0; an interval that would reach below 0 begins there"""
+    """A class with an error of its mean/2.5 has a gamma law, which stays above 0; an interval below 0 starts at 0"""
     with Folder() as f:
-        for plots, with_one, below in ((9, 4, False), (5, 2, True)):  # of n plots k with one tree
+        for plots, with_one, below in ((9, 4, False), (5, 2, True)):  # k of n plots have one tree
             rows = [f"{i},100,0,,tree,,20,12," if i < with_one else f"{i},100,0,,,,,," for i in range(plots)]
             text = survey(f, "\n".join([HEAD, *rows]) + "\n").out
             each = [100] * with_one + [0] * (plots - with_one)
@@ -126,7 +126,7 @@ def test_rare():
 
 
 def test_same_bytes():
-    """An Italian spreadsheet, other words, CRLF, a mark, tabs and another language give the same bytes, but for comments and texts"""
+    """An Italian spreadsheet, other words, CRLF, a mark, tabs and another language give equal bytes, except comments and texts"""
     with Folder() as f:
         wanted = survey(f, table()).out
         italian = "saggio,superficie_m2,pendenza_gradi,specie,tipo,ceppaia,diametro_cm,altezza_m,distanza_m"
@@ -151,7 +151,7 @@ SHEETS = Path(__file__).resolve().parent / "cases/surveys"
 
 
 def test_offices():
-    """Sheets as offices have them: titles, totals, joined cells, empty lines, units, plurals, letters, percent, UTF-16, Windows-1252"""
+    """Sheets of offices: titles, totals, joined cells, empty lines, units, plurals, letters, percent, UTF-16, Windows-1252"""
     with Folder() as f:
         texts = {name: read(str(SHEETS / f"{name}.csv")).out for name in ("windows", "unicode", "english", "telephone", "codes")}
         plots = ((200 * math.cos(math.radians(45)), 3, 5, 1), (150, 2, 3, 2))  # m2 of the map, stools, shoots, standards
@@ -169,7 +169,7 @@ def test_offices():
 
 
 def test_no_heights():
-    """Standards without any height lie on the shoots' curve, else all are as usual; assumed, and the volume is in doubt"""
+    """Standards without heights use the shoots' curve, others the default one; assumed, with uncertain volume"""
     with Folder() as f:
         text = read(str(SHEETS / "telephone.csv")).out
         a, b = (float(x) for x in re.search(r"d2/\(([0-9.]+) \+ ([0-9.]+) d\)2", text).groups())
@@ -191,7 +191,7 @@ def test_no_heights():
 
 
 def test_words():
-    """Other species are none, a dash is nothing, and what a person calls things may be written in any case"""
+    """Other species become none, a dash is empty, and common names may be in any case"""
     with Folder() as f:
         wanted = survey(f, HEAD + "\n" + ROW.replace("35,,", "35,,") + ROW.replace("35,,tree", "35,quercus-pubescens,tree")).out
         expect_equal(survey(f, HEAD + "\n" + ROW.replace("35,,", "35,Altre latifoglie,") +
@@ -199,7 +199,7 @@ def test_words():
 
 
 def test_template():
-    """The empty sheet is a survey in either language, whose examples are the same stand"""
+    """The empty sheet is a survey in either language, with equal examples"""
     with Folder() as f:
         english, italian = good("--survey", "--template").out, good("--survey", "--template", "--language", "it").out
         expect_in("saggio;area_m2;", italian)
@@ -211,7 +211,7 @@ def test_template():
 
 
 def test_told_once():
-    """What is wrong in the same way in many rows is told once, with how many there are"""
+    """An error repeated in many rows is reported once, with the number of rows"""
     with Folder() as f:
         r = survey(f, HEAD + "\n" + ROW.replace("tree", "bush") * 40)
         expect_equal(r.err.count("is not a kind of stem"), 1, r.err)
@@ -219,7 +219,7 @@ def test_told_once():
 
 
 def test_areas():
-    """A radius is as good as an area; 400 m2 along 40 degrees are 306.418 m2 of the map"""
+    """A radius equals an area; 400 m2 along 40 degrees are 306.418 m2 on the map"""
     with Folder() as f:
         one = "1,{},40,,tree,,20,12\n2,{},40,,tree,,20,12\n2,,,,tree,,21,12\n"
         head = "plot,{},slope_deg,species,kind,stool,dbh_cm,height_m\n"
@@ -231,7 +231,7 @@ def test_areas():
 
 
 def test_heights():
-    """With five heights those that are missing lie on Naslund's curve; with fewer they are the mean, and that is marked"""
+    """With five heights missing ones lie on Naslund's curve; with fewer they are the mean, and marked"""
     with Folder() as f:
         def naslund(d):
             return 1.3 + (d / (1.2 + 0.25 * d)) ** 2
@@ -247,7 +247,7 @@ def test_heights():
 
 
 def test_beyond_the_heights():
-    """Stems thicker than any measured one are counted; a curve that makes one taller than a stand takes is refused, not written"""
+    """Stems thicker than any measured one are counted; a curve with impossible heights is refused, not written"""
     with Folder() as f:
         def steep(d):
             return 1.3 + (d / (2.9 + 0.01 * d)) ** 2
@@ -263,7 +263,7 @@ def test_beyond_the_heights():
 
 
 def test_what_is_assumed():
-    """A spacing that nobody measured, volumes outside an equation, one plot alone: each is named and marked"""
+    """An unmeasured spacing, volumes outside an equation, a single plot: each is reported and marked"""
     with Folder() as f:
         text = survey(f, table().replace(",0.3\n", ",\n").replace(",0.4\n", ",\n")).out
         expect_in("spacing_m: 0.35", text)
@@ -272,7 +272,7 @@ def test_what_is_assumed():
         text = survey(f, thin).out
         expect_in("1 of 1 shoots of 0 to 5 cm lie outside the equation of their species", text)
         line = next(row for row in text.splitlines() if "dbh_m: 0.032" in row)
-        expect("volume_m3" not in line, line)  # the program takes the form factor, and says so
+        expect("volume_m3" not in line, line)  # the program uses the form factor, and says so
         one = {"A": STEMS["A"]}
         text = survey(f, table(one)).out
         expect_in("One plot has no standard error", text)
@@ -285,7 +285,7 @@ def test_what_is_assumed():
 
 
 def test_any_order():
-    """Rows may come in any order, and stools have any names; the name of the file may be any"""
+    """Rows may come in any order, with any stool names and file name"""
     with Folder() as f:
         rows = [f"{plot},100,0,,shoot,{stool},{5 + stool / 10},6,\n" for stool in range(1, 13) for plot in "BA"]
         text = survey(f, HEAD + "\n" + "".join(rows)).out
@@ -299,7 +299,7 @@ def test_any_order():
 
 
 def test_other_species():
-    """A class with stems of another species that lie outside its equation has their volume given, and is marked"""
+    """A class with stems of another species outside its equation gets a volume, and is marked"""
     with Folder() as f:
         main = "A,200,0,quercus-cerris,tree,,30,15,\nB,200,0,quercus-cerris,tree,,31,15,\n"
         for rows, wanted in (("A,,,quercus-ilex,tree,,5.5,6.5,\n", "n = 1; volume of 1"),
@@ -313,7 +313,7 @@ def test_other_species():
 
 
 def test_stumps():
-    """Stumps are counted, and what a stump takes is asked for"""
+    """Stumps are counted, and their energy is required"""
     with Folder() as f:
         text = survey(f, table() + "A,,,,stump,,30,0.2,\nB,,,,ceppo,,20,,\n").out
         expect_in("# stumps: {per_ha: ", text)
@@ -345,7 +345,7 @@ def test_bare():
 
 
 def test_columns():
-    """Columns that say nothing to the program are named, with slips of others; they are no error"""
+    """Unknown columns are reported, with likely names; they are no error"""
     with Folder() as f:
         def more(head):
             return survey(f, "".join(f"{row},{head if i == 0 else 'x'}\n" for i, row in enumerate(table().splitlines()))).out
@@ -357,7 +357,7 @@ def test_columns():
 
 
 def test_by_name():
-    """A survey that comes with the program is found by its name, with and without .csv, as a scene is"""
+    """A shipped survey is found by its name, with and without .csv, like a scene"""
     with Folder() as f:
         wanted = read("six-plots.csv", cwd=f.path).out
         expect_equal(read("six-plots", cwd=f.path).out, wanted)
@@ -366,7 +366,7 @@ def test_by_name():
 
 
 def test_output():
-    """-o writes the stand; the survey itself is not written over"""
+    """-o writes the stand; the survey itself is not overwritten"""
     with Folder() as f:
         wanted = survey(f, table()).out
         expect_equal(survey(f, table(), "-o", "out.yaml", cwd=f.path).out, "")
@@ -425,7 +425,7 @@ BAD = [  # (content, place, words)
 
 
 def test_bad():
-    """What is wrong is told with file, row and column; nothing is written"""
+    """Errors are reported with file, row and column; nothing is written"""
     with Folder() as f:
         for content, place, words in BAD:
             r = survey(f, content, "-o", str(f.path / "none.yaml"))
@@ -439,7 +439,7 @@ def test_bad():
 
 
 def test_bad_in_italian():
-    """What is wrong is told with the words of an Italian sheet, numbers with a comma, and a workbook is called one"""
+    """Errors use the words of an Italian sheet and commas in numbers; a workbook is recognized"""
     english = re.compile(r"area_m2|radius_m|slope_deg|dbh_cm|spacing_m|energy_kJ|\bshoot|\bstandard\b|stump|degrees|ostrya|\d\.\d")
     with Folder() as f:
         for content, _, words in BAD:
@@ -451,7 +451,7 @@ def test_bad_in_italian():
 
 
 def test_thick():
-    """A stem of 300 cm is taken; a thicker one is asked for its unit, in Italian, too"""
+    """A stem of 300 cm is accepted; for a thicker one the unit is asked, in Italian, too"""
     with Folder() as f:
         expect_in("dbh_m: 3,", survey(f, HEAD + "\n" + ROW.replace("200", "2000").replace(",20,", ",300,")).out)
         r = survey(f, HEAD + "\n" + ROW.replace(",20,", ",750,"), "--language", "it")
@@ -460,7 +460,7 @@ def test_thick():
 
 
 def test_thin():
-    """Two stems that differ by more than their mean get it as their spread, which a stand takes"""
+    """Two stems that differ by more than their mean get it as their spread, which a stand accepts"""
     with Folder() as f:
         text = survey(f, HEAD + "\nA,200,0,,tree,,0.2,1.5,\nA,,,,tree,,4.9,5,\n").out
         expect(statistics.stdev((0.2, 4.9)) > 2.55)
@@ -469,7 +469,7 @@ def test_thin():
 
 
 def test_many_wrong():
-    """All that is wrong is told at once"""
+    """All errors are reported together"""
     with Folder() as f:
         r = survey(f, HEAD + "\n" + ROW.replace("tree", "bush") + ROW.replace(",20,", ",x,") + ROW.replace(",12,", ",1,"))
         for place in (":2:11:", ":3:17:", ":4:20:"):
@@ -490,7 +490,7 @@ wait idle
 
 
 def test_terminal():
-    """p presets, from a survey: the stand of the belt is the one that --survey writes; what is wrong is told, and nothing changed"""
+    """p presets, from a survey: the belt's stand equals that of --survey; errors are reported, and nothing changes"""
     with Folder() as f:
         wanted = survey(f, table()).out
         f.write("bad.csv", table().replace("6.2", "x"))
@@ -515,15 +515,14 @@ def test_terminal():
 
 
 def future_of(stems, *arguments):
-    """What is written between the stems and the source of the whole."""
+    """Return the part between the stems and the source of the stand."""
     with Folder() as f:
         out = read(f.write("plots.csv", table({"A": (100, 0, stems), "B": (100, 0, stems)})), *arguments).out
     return re.search(r"(?ms)^ +source: [^\n]*\n(# Growth.*?|# ceduo has.*?|)^source:", out)[1]
 
 
 def test_future():
-    """Growth and cutting are those of the shipped stand of the species with most basal area, by the number and basal area of the
-    standards; marked as assumed, with a comment that names it"""
+    """Growth and cutting are those of the shipped stand of the main species by basal area and standards; marked, with a comment"""
     def stems(species, standards, dbh=20):
         return [(species, "shoot", 1, 6.2, 6.4, 0.3)] * 3 + [(species, "standard", "", dbh, 12, "")] * standards
 
@@ -537,7 +536,7 @@ def test_future():
         expect_in(f"as in the shipped stand '{name}'", text)
         expect_equal(text.count("kind: assumed"), 2, text)
         shipped = {}
-        for key in ("growth", "cutting"):  # a file goes before its base
+        for key in ("growth", "cutting"):  # a file overrides its base
             for file in ([] if name == name.removeprefix(prefixes[species]) else [name.removeprefix(prefixes[species])]) + [name]:
                 block = re.search(rf"(?m)^{key}:\n((?:  .*\n)+)", (PROFILES / "stands" / f"{file}.yaml").read_text())
                 shipped |= dict(re.findall(r"(?m)^  (\w+): (.*)$", block[1] if block else ""))
@@ -547,7 +546,7 @@ def test_future():
         stay, kept = (json.loads(x.pop("stay_per_ha")) for x in (shipped, found))
         expect_equal(found, shipped, name)
         expect_equal(kept, [round(n * 100 * standards / sum(stay)) for n in stay] if standards else stay, f"{name}: as many as counted")
-    with Folder() as f:  # nine of ten plots are empty: fewer than 90 a hectare
+    with Folder() as f:  # nine in ten plots are empty: fewer than 90 per hectare
         one = {f"P{i}": (100, 0, stems("ostrya-carpinifolia", 8) if i == 0 else []) for i in range(10)}
         expect_in("'simple-coppice'", survey(f, table(one)).out)
     expect_in("# ceduo has no stand of this species", future_of(stems("robinia-pseudoacacia", 1)))
@@ -556,7 +555,7 @@ def test_future():
 
 
 def test_years_of_a_survey():
-    """A scene with the stand of six-plots.csv has years: cut now leaving so many, as a selection coppice, not cut"""
+    """A scene with the stand of six-plots.csv has years: cut now with some retained, as a selection coppice, not cut"""
     with Folder() as f:
         f.write("stand.yaml", read("six-plots").out)
         site = f.write("s.yaml", scene(
@@ -584,7 +583,7 @@ def test_years_of_a_survey():
 
 
 def test_usage():
-    """What cannot be used with --survey is named"""
+    """Options incompatible with --survey are named"""
     with Folder() as f:
         for arguments, words in ((["-n", 3], "--survey cannot be used with --rocks"), (["-f", "json"], "--format"),
                                  (["s.yaml"], "no scene: 's.yaml'"), (["--batch"], "--batch"), (["--check"], "--check")):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surveys as offices write them: read right, with densities computed by hand, or refused with a remedy that works."""
+"""Surveys as offices write them: read correctly, with densities by hand, or refused with a working remedy."""
 import math
 import re
 from pathlib import Path
@@ -17,7 +17,7 @@ def survey(f, content, *arguments, name="plots.csv"):
 
 
 def densities(text):
-    """Stems per hectare of each kind, and stools."""
+    """Return stems per hectare of each kind, and stools."""
     found = dict.fromkeys(KINDS, 0)
     for density, kind in re.findall(r"per_ha: ([0-9.e+]+),[^\n]*\n +source: \{kind: \w+, text: \"(\w+) of \d", text):
         found[kind] += float(density)
@@ -33,7 +33,7 @@ def expect_densities(text, wanted, what=""):
 
 
 def understood(r):
-    """The line on standard error, which is the first comment of the stand."""
+    """Return the line on standard error, which is the first comment of the stand."""
     expect_equal(r.status, DONE, r)
     line = r.err.rstrip("\n")
     expect_equal(r.out.splitlines()[0], f"# {line}", r)
@@ -47,7 +47,7 @@ def refused(r, *words):
 
 
 def read(f, content, wanted, *words):
-    """Read right: densities, and words of the line."""
+    """Expect densities, and words of the line."""
     r = survey(f, content)
     line = understood(r)
     expect_densities(r.out, wanted, content)
@@ -60,7 +60,7 @@ def cosine(percent):
 
 
 def per_ha(*plots):
-    """Mean over plots of (number, m2 of the map)"""
+    """Return the mean over plots of (number, m2 of the map)"""
     return sum(10000 * n / area for n, area in plots) / len(plots)
 
 
@@ -88,7 +88,7 @@ READ = {
 
 
 def convert(column, factor, comma=False):
-    """The values of a column times a factor."""
+    """Multiply the values of a column by a factor."""
     def changed(text):
         separator = ";" if ";" in text else ","
         rows = [row.split(separator) for row in text.splitlines()]
@@ -107,7 +107,7 @@ def instead(*pairs):
     return changed
 
 
-# name: (words of the remedy, mends with the densities that they give by hand)
+# name: (words of the remedy, repairs with their densities by hand)
 REFUSED = {
     "tally-no-stools": (["plots.csv:2:12", "the number of stools of the plot (column 'stools')"],
                         [(instead(("Matricine\n", "Matricine;N. ceppaie\n"), ("6;44;0", "6;44;0;20"), ("8;31;0", "8;31;0;"),
@@ -138,7 +138,7 @@ REFUSED = {
 
 
 def test_sheets():
-    """Sixteen sheets in three languages: read with their densities, or refused with words of the remedy and read when mended"""
+    """Sixteen sheets in three languages: read with their densities, or refused with a remedy and read after it"""
     known = {"codes", "english", "telephone", "unicode", "windows"}  # test_survey.py has them
     expect_equal({p.stem for p in SHEETS.iterdir()} - known, set(READ) | set(REFUSED))
     with Folder() as f:
@@ -206,7 +206,7 @@ def test_kinds():
 
 
 def test_counts():
-    """A number of stems multiplies the row; it must be whole, and a running number is none"""
+    """A number of stems multiplies the row; it must be whole, and not a running number"""
     tally = ("saggio,area_m2,tipo,specie,diametro_cm,{}\n1,400,albero,faggio,15,7\n1,,albero,faggio,20,12\n1,,albero,faggio,25,4\n"
              "2,400,albero,faggio,15,5\n2,,albero,faggio,20,9\n2,,albero,faggio,25,0\n")
     with Folder() as f:
@@ -224,7 +224,7 @@ def test_counts():
 
 
 def test_numbering():
-    """A column 'n' that runs 1, 2, 3 is asked about, over all rows or from each plot anew; both remedies work"""
+    """A running column 'n' is asked about, over all rows or per plot; both remedies work"""
     with Folder() as f:
         for numbers, count in (((1, 2, 3, 4), 5), ((1, 2, 1, 2), 3), ((7, 8, 9, 10), 17)):
             rows = "".join(f"{n},{p},300,tree,20\n" for n, p in zip(numbers, (1, 1, 2, 2)))
@@ -236,7 +236,7 @@ def test_numbering():
 
 
 def test_status():
-    """Dead and cut stems are left out and counted, in several vocabularies; stumps and stems without a status stay"""
+    """Dead and cut stems are dropped and counted, in several vocabularies; stumps and stems without a status stay"""
     words = (("status", "live", "dead", "cut"), ("stato", "vivo", "morto", "tagliato"), ("Vitalità", "v", "m", "t"),
              ("vitalita", "Viva", "Morta", "Tagliata"), ("condizione", "vivi", "secco", "abbattuto"), ("health", "alive", "dead", "felled"),
              ("STATUS", "LI", "DS", "cut"), ("Zustand", "lebend", "tot", "entnommen"))
@@ -259,7 +259,7 @@ CHESTNUT = [(d, "v") for d in (160, 59, 66, 56, 54, 52, 47, 44, 29, 30, 33, 45, 
 
 
 def test_units():
-    """Millimetres by the head, by a row of units or in the cell; other units are refused"""
+    """Millimetres in the head, in a row of units or in the cell; other units are refused"""
     with Folder() as f:
         rows = "1,400,tree,beech,{}\n2,400,tree,beech,{}\n"
         for head, units, cells in (("dbh_mm", "", ("200", "300")), ("DAP (mm)", "", ("200", "300")), ("D", ",m2,,,mm\n", ("200", "300")),
@@ -295,7 +295,7 @@ def test_units():
 
 
 def test_tallies():
-    """A row for each class with numbers of shoots, standards and trees; a row for each stool"""
+    """A row per class with numbers of shoots, standards and trees; a row per stool"""
     head = "plot,area_m2,dbh_cm,polloni,matricine,alberi{}\n"
     with Folder() as f:
         read(f, head.format(",ceppaie") + "1,400,5,30,,,12\n1,,10,11,2,1,\n1,,20,,3,,\n2,400,5,8,,,8\n",
@@ -324,7 +324,7 @@ def test_tallies():
 
 
 def test_sites():
-    """The same plot number at two sites is two plots; rows that alternate are asked about; a stem that occurs twice is noted"""
+    """The same plot number at two sites means two plots; alternating rows are asked about; a repeated stem is noted"""
     with Folder() as f:
         for head in ("site", "stand", "compresa", "Particella", "Strato", "Località", "Bestand"):
             read(f, f"{head},plot,area_m2,kind,dbh_cm\nA,1,400,tree,20\nA,1,400,tree,22\nB,1,200,tree,20\nB,2,200,tree,20\n",
@@ -355,7 +355,7 @@ def test_sites():
 
 
 def test_asked():
-    """Values that can be in another unit are refused; each remedy works when it is followed"""
+    """Values that may be in another unit are refused; each remedy works"""
     with Folder() as f:
         small = "plot,{},kind,dbh\n1,{},tree,4\n"
         for head, value, mended, area in (("area", 5, "area_m2", 5), ("sup.", 9.9, "area (m2)", 9.9), ("raggio", 1.5, "radius_m", math.pi * 2.25)):
@@ -401,7 +401,7 @@ def test_asked():
 
 
 def test_chestnut():
-    """A sheet without units whose shoots are up to 160: asked about, and by both remedies the same live shoots are read"""
+    """A sheet without units with shoots up to 160 is asked about, and both remedies read the same live shoots"""
     with Folder() as f:
         rows = "".join(f"1;500;pollone;castagno;{i // 4};{i};{d};{status};\n" for i, (d, status) in enumerate(CHESTNUT))
         text = "Saggio;Superficie;Tipo;Specie;Ceppaia;ID pollone;{};Vitalità;\n" + rows
@@ -413,7 +413,7 @@ def test_chestnut():
 
 
 def test_names():
-    """A quote or a line break within a name is refused at its cell; quotes around a name are not"""
+    """A quote or line break within a name is refused at its cell; surrounding quotes are accepted"""
     head = "plot,area_m2,kind,species,stool,dbh_cm\n"
     good = '"1",200,shoot,"beech",3,6\n1,,"shoot",beech,"3",7\n'
     with Folder() as f:
@@ -426,7 +426,7 @@ def test_names():
 
 
 def test_line():
-    """The line of understanding: on standard error and first in the file, not with -q; the same in the terminal program"""
+    """The line of understanding: on standard error and first in the file, not with -q; equal in the terminal program"""
     text = ("plot,area_m2,kind,stool,dbh,status,note,foto\n1,400,shoot,1,6,live,,\n1,,shoot,1,8,dead,x,\n1,,standard,,20,live,,\n"
             "2,400,shoot,1,7,cut,,\nTotal,,,,,,,\n")
     with Folder() as f:

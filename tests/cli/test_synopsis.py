@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The manual against the program: the forms of ceduo(1) have the options that go with them, and no others."""
+"""The manual against the program: the forms of ceduo(1) have exactly the options that fit them."""
 import re
 import sys
 from pathlib import Path
@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import INPUT, ROOT, USAGE, Folder, ceduo, expect, expect_equal, run_all  # noqa: E402
 
-# Value of each option, then the options that it needs.
+# value of each option, then the options that it requires
 VALUES = {"format": "csv", "output": "out.csv", "set": "rock.diameter_m=1", "rocks": "10", "tolerance": "0.1", "rows": "controls",
           "each": "none.csv", "columns": "scene", "seed": "1", "threads": "1", "option": "a", "charset": "ascii", "language": "en",
           "size": "80x24", "sure": "0.9", "script": "none.txt", "find": "rock.diameter_m=1:2", "goal": "adc", "report": "page.html",
@@ -19,14 +19,14 @@ MODES = ("batch", "find", "goal", "calibrate", "sensitivity", "report", "plot", 
 
 
 def options():
-    """The options of --help: {'rows': '', 'seed': '', 'rocks': 'n', …}, their letters."""
+    """Return the options of --help: {'rows': '', 'seed': '', 'rocks': 'n', …}, and their letters."""
     found = re.findall(r"^  (?:-(.),|   ) --([a-z-]+)", ceduo("--help").out, re.M)
     expect(len(found) > 30, found)
     return {name: letter for letter, name in found}
 
 
 def forms():
-    """The forms of the SYNOPSIS: ([[modes], …], {options})."""
+    """Return the forms of the SYNOPSIS: ([[modes], …], {options})."""
     letters = {letter: name for name, letter in options().items() if letter}
     page = (ROOT / "man/ceduo.1").read_text()
     text = page[page.index(".Sh SYNOPSIS"):page.index(".Sh DESCRIPTION")]
@@ -50,7 +50,7 @@ def given(name):
 
 
 def goes(modes, option):
-    """Whether the program takes an option with a mode: it then looks for a scene, which is not there."""
+    """True if the program accepts an option with a mode: it then misses the scene."""
     words = {f"--{m}" if m in ("batch", "check") else given(m) for m in modes} | {given(option), *NEEDS.get(option, [])}
     done = ceduo(*sorted(words), *([] if "survey" in modes else ["none.yaml"]))
     expect(done.status in (USAGE, INPUT), words, done)
@@ -58,13 +58,13 @@ def goes(modes, option):
 
 
 def test_all_options():
-    """Every option of --help stands in the SYNOPSIS, and no other does"""
+    """The SYNOPSIS has exactly the options of --help"""
     named = {name for alternatives, others in forms() for name in {*others, *sum(alternatives, [])}}
     expect_equal(sorted(named - {"template"}), sorted(options()))
 
 
 def test_forms():
-    """Each form has just the options that the program takes with it"""
+    """Each form has exactly the options that the program accepts with it"""
     with Folder():
         seen = 0
         for alternatives, others in forms():

@@ -16,7 +16,7 @@ from runs import FOUR, MODELS, PAPER, THICK, THIN, expect_run, read_csv, through
 
 
 def test_table_order():
-    """Table of the paper's site: statements in their order, wooded first and bare below it, verdicts in words"""
+    """Table of the paper's site: statements in order, wooded first and bare below it, verdicts in words"""
     text, run = good(*WHOLE, PAPER).out, result(PAPER)
     option = run["options"][0]
     control = option["controls"][0]
@@ -34,7 +34,7 @@ def test_table_order():
 
 
 def test_table_order_index():
-    """Table of the paper's site by the index: no figure through the wood, the index labelled, the energy light unknown"""
+    """Table of the paper's site by the index: no figure with forest, the index labelled, the energy light unknown"""
     text, run = good(*WHOLE, *through("index"), PAPER).out, result(*through("index"), PAPER)
     expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "ADS 1", "1.95 ✔", "ADS 2", "2.61 ✔", "135 m", "without forest", "992",
                  "896", "113 ", "Contact: passes", "Free run: passes", "Energy: unknown", "index", "gsteiger-stools 3.04 m", "By the index stems could absorb 53.8 kJ \\(Eq. 4\\), 39.9 kJ per 100 m; of 113.2 kJ 59.4 kJ are left \\(Eq. 5\\)", "62.3 kJ", "(?i)one rock", "Eq. 6 gives 2.61 m")
@@ -44,7 +44,7 @@ def test_table_order_index():
 
 
 def test_table_width():
-    """Tables of all shipped scenes and of long names stay within 80 columns"""
+    """Tables of all shipped scenes and of long names are at most 80 columns wide"""
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
         for law in ("lumped", "crsp"):
             expect_width(good(*WHOLE, "-n", 200 if FULL else 50, "-s", f"simulation.law={law}", path).out)
@@ -56,7 +56,7 @@ def test_table_width():
 
 
 def test_table_width_survey():
-    """Table in survey coordinates stays within 80 columns"""
+    """Table in survey coordinates is at most 80 columns wide"""
     far = scene(slope={"vertices_m": [[480000, 64], [480100, 0]], "segments": [{"rn": 0.3, "rt": 0.8}]},
                 release={"vx_m_s": 1}, controls=[{"x_m": 480075.125, "accepted_kJ": 20, "name": "road"}],
                 forest=[{"from_m": 480010.125, "to_m": 480070.375, "stand": stand(name="an old coppice of hornbeam")}])
@@ -65,7 +65,7 @@ def test_table_width_survey():
 
 
 def test_table_widest():
-    """Table: words longer than a line, wide characters and huge numbers keep its columns, 80 of them"""
+    """Table: words longer than a line, wide characters and huge numbers keep its 80 columns"""
     wide, word = "一二三四五六七八九十" * 8, "x" * 300
     text = good(*WHOLE, "-n", 20, "-s", f"title={word}", "-s", f"options[0].name={wide}", "-s", "controls[0].x_m=134.123456789",
                 "-s", "controls[0].accepted_kJ=123456", "-s", "rock={diameter_m: 20}", FOUR).out
@@ -82,7 +82,7 @@ def test_table_widest():
 
 
 def test_table_small():
-    """Table: small figures have a blank before them and are not cut"""
+    """Table: small figures follow a blank and are not cut"""
     slope = {"vertices_m": [[0, 0], [100, -60]], "segments": [{"rn": 0.05, "rt": 0.95, "roughness_rad": 0.1, "friction": 0.1}]}
     with Folder() as f:
         path = f.write("s.yaml", scene(slope=slope, release={"vx_m_s": 2}, controls=[{"x_m": x} for x in (2, 20, 90)]))
@@ -101,7 +101,7 @@ def test_table_small():
 
 
 def test_table_one_rock():
-    """Table: of one rock no error is known, whatever it weighs and however it is compared"""
+    """Table: one rock has no error, for any weight and comparison"""
     for rock in ("{diameter_m: 0.5}", "{diameter_m: 20}", "{diameter_m: 500}", "{diameter_m: 0.001}"):
         text = good(*WHOLE, "-n", 1, "-s", f"rock={rock}", FOUR).out
         expect(not re.search(r"\bnan\b", text), re.findall(".*nan.*", text))
@@ -110,7 +110,7 @@ def test_table_one_rock():
 
 
 def test_table_width_short():
-    """Table of a slope of a millimetre stays within 80 columns"""
+    """Table of a slope of a millimetre is at most 80 columns wide"""
     with Folder() as f:
         path = f.write("short.yaml", scene(slope={"vertices_m": [[0, 0], [0.007693, -0.005387]],
                                                   "segments": [{"rn": 0.3, "rt": 0.8}]}, controls=[{"x_m": 0.001}]))
@@ -118,7 +118,7 @@ def test_table_width_short():
 
 
 def test_table_splinter():
-    """Table: a rock so thin that its volume is next to 0 has no other sizes, and all else of its page"""
+    """Table: a rock with almost no volume has no other sizes, but the rest of its page"""
     with Folder() as f:
         path = f.write("s.yaml", scene(rock={"shape": "ellipsoid", "axes_m": [1e-320, 1, 1], "mass_kg": 50}))
         text = good(*WHOLE, "-n", 5, path).out
@@ -127,7 +127,7 @@ def test_table_splinter():
 
 
 def test_table_warnings_once():
-    """Table: what belts of one stand have in common is warned of once an option"""
+    """Table: warnings common to the belts of one stand appear once per option"""
     text = good(*WHOLE, "-n", 10, "staggered").out
     warnings = re.findall(r"^    ! .*(?:\n      .*)*", text, re.M)
     options = text.count("Contact: ")
@@ -135,7 +135,7 @@ def test_table_warnings_once():
 
 
 def test_table_lights():
-    """Table: every light with its reason: no forest, a gap, a thin belt, nothing said of what a place withstands, the index"""
+    """Table: every light with its reason: no forest, a gap, a thin belt, no accepted energy, the index"""
     def said(*arguments, scene_mapping=None, where=-1):
         with Folder() as f:
             text = good(*WHOLE, f.write("s.yaml", scene_mapping or wooded_scene()), *arguments).out
@@ -170,7 +170,7 @@ def test_table_lights():
 
 
 def test_table_close_call():
-    """The energy light is called close where its interval holds 50 of 1000, in the table, in JSON and in CSV; else not"""
+    """The energy light is called close if its interval contains 50 in 1000, in the table, in JSON and in CSV; otherwise not"""
     with Folder() as f:
         path = f.write("s.yaml", wooded_scene(controls=[{"x_m": 105, "accepted_kJ": 60}]))
         energies = result(path)["options"][0]["controls"][0]["wooded"]
@@ -194,7 +194,7 @@ def test_table_close_call():
 
 
 def test_threshold_along_the_ground():
-    """The threshold is metres of the map: a belt says how many of its ground that are, on 45 degrees, half of it, and a flat one"""
+    """The threshold is in metres of the map: a belt at 45 degrees converts it to its ground, also partly or on level ground"""
     with Folder() as f:
         path = f.write("s.yaml", scene(slope={"vertices_m": [[0, 60], [50, 10], [100, 10]], "segments": [{"rn": 0.35, "rt": 0.85}]},
                                        forest=[belt(0, 40), belt(45, 55), belt(60, 70)], controls=[{"x_m": 80}]))
@@ -207,7 +207,7 @@ def test_threshold_along_the_ground():
 
 
 def test_table_blocks():
-    """Table of blocks of other sizes: rising, an octave apart, this scene's marked and like the run, larger ones meet and carry more"""
+    """Table of other block sizes: ascending by octaves, the scene's own marked and equal to the run; larger ones meet more"""
     for arguments, own in (((), 0.197), ((("-s", "rock.diameter_m=1.2", "-s", "rock.height_m=0.6")), 0.679), (("-s", "rock.diameter_m=0.2", "-s", "rock.height_m=0.2"), 0.00628),
                            (("-s", "rock.diameter_m=3", "-s", "rock.height_m=3"), 21.2)):
         text, run = good(*WHOLE, PAPER, *arguments).out, result(PAPER, *arguments)
@@ -223,13 +223,13 @@ def test_table_blocks():
         expect_equal(mine[6], of_1000("exceed", option["controls"][0]["wooded"]), "share")
         for a, b in zip(rows, rows[1:]):
             expect(a[4] >= b[4] and a[5] <= b[5], "a larger block meets more", a, b)
-        shares = [[int(n) for n in re.findall(r"\d+", r[6])] for r in rows]  # each with its interval: not of equally many
+        shares = [[int(n) for n in re.findall(r"\d+", r[6])] for r in rows]  # each with its interval: their numbers differ
         expect(all(a[1] <= b[2] for a, b in zip(shares, shares[1:])) and shares[-1][1] > shares[0][2],
                "a larger block carries more", shares)
 
 
 def test_table_bounded():
-    """What a page adds is bounded: in a year no more rocks than in a run, no sizes that meet all stems there are"""
+    """A page's additions are limited: years with at most a run's rocks, no sizes that meet all stems"""
     slope = {"vertices_m": [[0, 2100], [3000, 0]], "segments": [{"rn": 0.35, "rt": 0.875, "roughness_rad": 0.25, "friction": 0.5}]}
     with Folder() as f:
         for dbh, thick, rocks in ((0.02, 1e-4, 50), (0.02, 1e-4, 500), (0.035, 1e-6, 500)):
@@ -250,7 +250,7 @@ def test_table_bounded():
 
 
 def test_table_blocks_cases():
-    """Table of blocks: of each option, without forest, without an accepted energy, by the index"""
+    """Table of blocks: for each option, without forest, without an accepted energy, by the index"""
     with Folder() as f:
         path = f.write("s.yaml", treated(thick=THICK, none=None))
         run, text = result(path), good(*WHOLE, path).out
@@ -270,7 +270,7 @@ def test_table_blocks_cases():
 
 
 def test_table_arrivals():
-    """Table of arrivals: whatever the figures, each cell whole and apart from the next; sign and size survive"""
+    """Table of arrivals: for any figures each cell is complete and separate; sign and size survive"""
     cases = [scene(forest=[{"from_m": 0, "to_m": 75, "stand": THIN}], controls=[{"x_m": 40}, {"x_m": 75, "accepted_kJ": 0.1}]),
              wooded_scene(rock={"diameter_m": 8}), wooded_scene(rock={"diameter_m": 0.05}),
              wooded_scene(controls=[{"x_m": 105, "accepted_kJ": 123456.789}]), wooded_scene(simulation={"rocks": 1}),
@@ -285,7 +285,7 @@ def test_table_arrivals():
 
 
 def test_table_left():
-    """Eq. 5 as it is written is true: one number of decimals, nothing is taken of nothing"""
+    """The printed Eq. 5 is exact: equal decimals, zero minus nothing"""
     for arguments in ((PAPER,), ("-s", "forest[0].stand.shoots=[]", PAPER), ("tschamut",), ("vaujany",)):
         text = " ".join(good(*WHOLE, "-n", 200, *arguments).out.split())
         found = re.findall(r"stems could absorb (\S+) kJ \(Eq\. 4\), \S+ kJ per 100 m; of (\S+) kJ "
@@ -301,7 +301,7 @@ def test_table_left():
 
 
 def test_table_verdicts():
-    """Table says failed tests and used up energy in words, never 0 kJ left"""
+    """Table gives failed tests and exhausted energy in words, never 0 kJ left"""
     text = good(*WHOLE, PAPER, "-s", "forest[0].to_m=30", "-s", "forest[1].from_m=90").out
     expect_order(text, "Contact: FAILS", "(?i)gap", "60 m")
     for model in MODELS:
@@ -312,7 +312,7 @@ def test_table_verdicts():
 
 
 def test_table_assumed():
-    """Table marks what is assumed, and only that"""
+    """Table marks exactly the assumed values"""
     with Folder() as f:
         plain = scene(controls=[{"x_m": 75, "accepted_kJ": 50}], rock={"diameter_m": 0.5, "density_kg_m3": 2600})
         text = good(*WHOLE, f.write("plain.yaml", plain)).out
@@ -325,7 +325,7 @@ def test_table_assumed():
 
 
 def test_table_changed():
-    """A value changed by -s no longer has the source around it, and what is listed says so; no figure changes by that"""
+    """A value changed by -s loses its outer source, and the list says so; no figure changes by that"""
     note = {"kind": "assumed", "text": "all a guess"}
     with Folder() as f:
         path = f.write("s.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 50, "source": note}, {"x_m": 80, "source": note}]))
@@ -341,7 +341,7 @@ def test_table_changed():
         expect("guess" not in whole, whole)
         plain = f.write("plain.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 60}, {"x_m": 80}]))
         expect_equal(result(path, "-s", "controls[0].accepted_kJ=60")["options"], result(plain)["options"], "figures")
-        # the innermost source alone is told; in a list the whole of it; settings have no source
+        # only the innermost source is reported; in a list the whole one; settings have no source
         path = f.write("s.yaml", scene(source={"kind": "assumed", "text": "outer"}, forest=[
             {"from_m": 10, "to_m": 60, "source": {"kind": "assumed", "text": "belt"}, "stand": stand(source=note)}]))
         text = " ".join(good("--batch", "--details", path, "-s", "forest[0].stand.stools.per_ha=1000", "-s",
@@ -352,7 +352,7 @@ def test_table_changed():
 
 
 def test_table_talus():
-    """A bare CSV slope takes talus and says that it is assumed"""
+    """A bare CSV slope uses talus and reports the assumption"""
     with Folder() as f:
         f.write("line.csv", "distance,elevation\n0,64\n50,30\n100,0\n")
         path = f.write("csv.yaml", scene(slope="line.csv"))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A face above talus and a road: however its profile was sampled, rocks arrive as rocks do; where they do not, no answer is given."""
+"""A face above talus and a road: realistic arrivals for any sampling of the profile; otherwise no answer."""
 import json
 import math
 import random
@@ -27,7 +27,7 @@ def height(x):
 
 
 def sampled(step, noise, seed):
-    """A point every `step` m, all but the ends with normal noise, as a terrain model under trees has it."""
+    """Return a point every `step` m, inner ones with normal noise, like a terrain model under trees."""
     draw, last = random.Random(seed), round(270 / step)
     return [(i * step, height(i * step) + (draw.gauss(0, noise) if 0 < i < last else 0)) for i in range(last + 1)]
 
@@ -65,8 +65,8 @@ def test_rocks_move_as_rocks_do():
 
 
 def test_sampling():
-    """A point every 2.5, 1 or .5 m with noise changes no share by more than .10. Noise of 15 cm every .5 m has relief beyond the
-    tolerance of .5 m (3.3 standard deviations among 540 points): there the share lies within what is uncertain anyway."""
+    """A point every 2.5, 1 or .5 m with noise changes no share by more than .10. Noise of 15 cm every .5 m has relief beyond
+    the tolerance of .5 m (3.3 standard deviations among 540 points): its share lies within the uncertainty."""
     with Folder() as f:
         given = shares(run_of(f, site()))
         for step in (2.5, 1, 0.5):
@@ -81,13 +81,13 @@ def test_sampling():
         answer = json.loads(good("--sensitivity", "-f", "json", f.write("s.yaml", rough)).out)
         band = next(x for x in answer["figures"] if x["figure"] == "reach_probability")
         expect(band["uncertainty"]["p5"] <= given[2] <= band["uncertainty"]["p95"], "within what is uncertain", band)
-        # the same relief used as it is stops rocks on the way
+        # the same relief used unsimplified stops rocks
         whole = shares(run_of(f, site(ground=slope(sampled(1, 0.1, 0), tolerance_m=0))))
         expect(whole[2] < given[2] - 0.2, "without simplifying", whole)
 
 
 def test_points_are_counted():
-    """JSON, CSV, the whole page and the report say how many points there are and how many are used; segments keep all."""
+    """JSON, CSV, the whole page and the report print the number of points and of used points; segments keep all."""
     with Folder() as f:
         points = sampled(1, 0.1, 1)
         path = f.write("s.yaml", site(points))
@@ -123,7 +123,7 @@ def test_points_are_counted():
 
 
 def test_tolerance_is_uncertain():
-    """The tolerance of ground from the library is an uncertain input from .25 to 1 m; that of a file is not."""
+    """The tolerance of ground from the library is an uncertain input from .25 to 1 m; a file's is not."""
     with Folder() as f:
         path = f.write("s.yaml", site(sampled(2, 0.15, 1)))
         inputs = json.loads(good("--sensitivity=16", "-f", "json", path).out)["figures"][0]["inputs"]
@@ -149,11 +149,11 @@ def test_angles():
         expect_equal(run_of(f, flat)["options"][0]["controls"][0]["topography"]["shadow_angle_deg"], None)
 
 
-SMOOTH = [{"rn": 0.315, "rt": 0.835, "roughness_rad": 0.02, "friction": 1.2}]  # friction far above the slope's
+SMOOTH = [{"rn": 0.315, "rt": 0.835, "roughness_rad": 0.02, "friction": 1.2}]  # friction far above the slope
 
 
 def test_contradicted():
-    """Where few rocks arrive at a steep place the answer is none, and names the angle, what is usual and what to check."""
+    """If few rocks arrive at a steep place there is no answer, but the angle, the usual range and checks."""
     with Folder() as f:
         points = [(0, 200), (20, 165), (150, 60)]
         road = [{"x_m": 140, "name": "road", "accepted_kJ": 50}]
@@ -168,7 +168,7 @@ def test_contradicted():
         page = good("--batch", f.path / "s.yaml").out
         expect_in("cannot be assessed", page)
         expect("YES" not in page, "an answer", page)
-        # a bench of 35 m may well hold them: then there is an answer, and a warning
+        # a bench of 35 m may hold them: an answer, and a warning
         bench = {"vertices_m": [(0, 200), (20, 165), (100, 100), (135, 99), (185, 56)],
                  "segments": [{"rn": 0.3, "rt": 0.83, "roughness_m": 0.2, "friction": 0.45}]}
         run = run_of(f, site(ground=bench, controls=road))
@@ -183,7 +183,7 @@ def test_contradicted():
 
 
 def test_far():
-    """More than 100 of 1000 beyond a shadow angle of 24 degrees: a warning."""
+    """More than 100 in 1000 beyond a shadow angle of 24 degrees: a warning."""
     with Folder() as f:
         points = [(0, 200), (20, 150), (60, 120), (260, 90)]
         made = site(ground={"vertices_m": points, "segments": [{"rn": 0.3, "rt": 0.8, "roughness_m": 0.01, "friction": 0.1}]},
@@ -195,7 +195,7 @@ def test_far():
 
 
 def test_speeds_that_do_not_exist():
-    """lumped has no limit of speed on long slopes: a warning says so and names the law that has; heights likewise."""
+    """lumped has unlimited speed on long slopes: a warning names the law with a limit; heights likewise."""
     with Folder() as f:
         long = {"vertices_m": [[0, 2344], [3000, 0]], "segments": [{"rn": 0.315, "rt": 0.835, "roughness_rad": 0.15, "friction": 0.5}]}
         made = site(ground=long, controls=[{"x_m": 2900, "name": "house"}])
@@ -209,7 +209,7 @@ def test_speeds_that_do_not_exist():
 
 
 def test_defaults():
-    """Without a word a scene has crsp and the friction bound; --list-parameters says so, and false gives the published laws."""
+    """A scene defaults to crsp and the friction bound; --list-parameters says so, and false gives the published laws."""
     with Folder() as f:
         path = f.write("s.yaml", site())
         run, published = result(path), result(path, "-s", "simulation.friction_bound=false")

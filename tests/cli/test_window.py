@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The years by which options are judged: one window for all, a cut that is due, what the first line says and what it names."""
+"""The years by which options are judged: one window for all, a due cut, and the first line."""
 import math
 import re
 import sys
@@ -18,20 +18,20 @@ def text_of(*arguments, **options):
 
 
 def mean_over(years):
-    """Share that exceeds, its plain mean over listed years, and the error of that mean: each year has rocks of its own or the same."""
+    """Share that exceeds, its plain mean over listed years, and the error of the mean: independent or equal rocks per year."""
     shares = [y["controls"][-1]["wooded"]["exceed_probability"] for y in years]
     return sum(shares) / len(shares), shares
 
 
 def test_one_window():
-    """All options have the years 1 to 25 of the longest rotation, and each figure is that of --years=1:25"""
+    """All options have the years 1 to 25 of the longest rotation, and each figure equals --years=1:25"""
     answer = json_of("-n", 1000, "rotation")
     by_year = json_of("-n", 1000, "--years=1:25", "rotation")
     for option, same in zip(answer["options"], by_year["options"]):
         window = option["window"]
         expect_equal([window["from"], window["to"]], [1, 25], option["name"])
         mean, shares = mean_over(same["years"])
-        error = math.sqrt(mean * (1 - mean) / 1000)  # of the same rocks in all years; the others have 25 times as many
+        error = math.sqrt(mean * (1 - mean) / 1000)  # equal rocks in all years; the others have 25 times as many
         expect_near(window["mean"], mean, 4 * error, option["name"])
         expect_near(window["worst"], max(shares), 4 * math.sqrt(2 * 0.25 / 1000), option["name"])
         expect_near(window["failing_years"], sum(s > 0.05 for s in shares), 3, option["name"])
@@ -39,7 +39,7 @@ def test_one_window():
 
 
 def test_waiting_is_not_cutting():
-    """In 0.4 a cut now and none for 20 years were equal; over the same years waiting is another thing"""
+    """In 0.4 a cut now and none for 20 years were equal; over the same years waiting differs"""
     wait = ["-s", "options[1]={name: wait, forest: [{from_m: 0, to_m: 135, cut_year: 20, stand: simple-coppice}]}"]
     now = ["-s", "options[0]={name: now, forest: [{from_m: 0, to_m: 135, cut_year: 1, stand: simple-coppice}]}"]
     answer = json_of("-n", 1000, *now, *wait, "--option", "now", "--option", "wait", "rotation")
@@ -67,7 +67,7 @@ def test_given_years():
 
 
 def test_verdict_of_the_window():
-    """The answer is that of the years, today's stands beside it, and a cut that is due is in the first line"""
+    """The answer is the years', with today's stands next to it, and the first line names a due cut"""
     arguments = ["-n", 4000, "-s", "controls[0].accepted_kJ=150", "-s", "uncertainty=none", "--option", "simple coppice", "rotation"]
     control = json_of(*arguments)["options"][0]["controls"][0]
     expect_equal([control["verdict"]["answer"], control["verdict"]["today"]], ["no", "yes"])
@@ -80,14 +80,14 @@ def test_verdict_of_the_window():
 
 
 def test_today_alone():
-    """Without growth or cuts the window is today alone, and the page says so"""
+    """Without growth or cuts the window is only today, and the page says so"""
     answer = json_of("-n", 300, "vaujany")
     expect_equal([o["window"] for o in answer["options"]], [None, None])
     expect_in("'forest' does not change: stand 'Mixed high forest' has no growth and cutting data", text_of("-n", 300, "vaujany"))
 
 
 def test_rotation_in_details():
-    """The mean over a whole rotation of each option stays in the details"""
+    """Each option's mean over a whole rotation stays in the details"""
     page = text_of("--details", "-n", 300, "road-below")
     answer = json_of("-n", 300, "--years=1:25", "road-below")
     table = page[page.index("option mean rotation "):]
@@ -113,20 +113,20 @@ def page_of(what, *arguments):
 
 
 def test_a_gap_is_named():
-    """Where a gap without forest is the reason, the page names it, and the ADC that is below its limit is not said to fail"""
+    """If a gap without forest is the reason, the page names it, and does not call the ADC failed"""
     page = page_of(site(forest=[{"from_m": 0, "to_m": 80, "stand": stand()}]))
     expect_in("gap without forest, m 60 < 30 ✘", page)
     expect("(ADC)" not in page, page)
 
 
 def test_the_slope_alone():
-    """A slope that keeps within the limit without forest says so beside the YES"""
+    """A slope that meets the limit without forest says so next to the YES"""
     page = page_of(site(controls=[{"x_m": 140, "name": "road", "accepted_kJ": 15000}]))
     expect_in("✔ YES, also without forest: 0 of 1000 > 15000 kJ", page)
 
 
 def test_impossible_stand():
-    """A stand that no forest can hold supports no yes, in page and JSON; a no stands"""
+    """An impossible stand supports no yes, in page and JSON; a no stands"""
     dense = stand(trees=[{"per_ha": 20000, "dbh_m": 0.3, "height_m": 18}])
     page = page_of(site(forest=[{"from_m": 0, "to_m": 140, "stand": dense}], controls=[{"x_m": 140, "accepted_kJ": 200}]))
     expect("YES" not in page.split("HOW SURE")[0], page)
@@ -137,13 +137,13 @@ def test_impossible_stand():
 
 
 def test_two_controls():
-    """With two controls each line of the answer names its own"""
+    """With two controls each line of the answer has its own name"""
     page = page_of(site(controls=[{"x_m": 100, "name": "track", "accepted_kJ": 20}, {"x_m": 140, "name": "road", "accepted_kJ": 50}]))
     expect(re.search(r"track \(100 m\): \S+ \w+.*road \(140 m\): \S+ \w+", page), page)
 
 
 def test_smallest_block():
-    """One hazard: the answer and the return period do not depend on the smallest block that is counted"""
+    """With one hazard the answer and the return period do not depend on the smallest counted block"""
     rows = []
     for smallest in (0.01, 0.03, 0.1, 0.3):
         lo, hi, b = 0.01, 10, 1.1

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Woods of every kind: as many stems are met as stand in the way, and each takes what it should."""
+"""Forests of all kinds: rocks meet the expected number of stems, and each takes the expected energy."""
 import math
 import json
 import re
@@ -13,12 +13,12 @@ from harness import (FULL, INPUT, USAGE, Folder, Suite, belt, ceduo, expect, exp
 from pages import WHOLE, expect_width
 from runs import expect_run
 
-# So light that a hit takes nothing to speak of, so tall that no rock flies over it: the way is that without forest.
+# Too light to take energy, too tall to be flown over: the trajectory is that without forest.
 GHOST = {"height_m": 60, "volume_m3": 1e-9}
 
 
 def ghosts(stools=2000, spacing=0.25, shoots=5000, dbh=0.0625, trees=0, tree_dbh=0.25, **changes):
-    """A stand of such stems."""
+    """Return a stand of such stems."""
     made = {"stools": {"per_ha": stools, "spacing_m": spacing}, "shoots": [{**GHOST, "per_ha": shoots, "dbh_m": dbh}]}
     made = stand(**(made if stools else {"stools": None, "shoots": None}),
                  trees=[{**GHOST, "per_ha": trees, "dbh_m": tree_dbh}] if trees else [])
@@ -27,7 +27,7 @@ def ghosts(stools=2000, spacing=0.25, shoots=5000, dbh=0.0625, trees=0, tree_dbh
 
 
 def expect_contacts(found, length, rate, rocks, what, clumps=1.0):
-    """A mean number of hits over so many metres; `clumps`: how many come at once, for the error where few were seen."""
+    """Expect a mean number of hits over some metres; `clumps`: hits at a time, for the error of small numbers."""
     contacts = found["contacts"]
     wanted = length * rate
     error = max(contacts["se"], math.sqrt(wanted * clumps / rocks))
@@ -35,7 +35,7 @@ def expect_contacts(found, length, rate, rocks, what, clumps=1.0):
 
 
 EXTREMES = [
-    # (what, stand, rocks, shoots that come at once)
+    # (name, stand, rocks, shoots at a time)
     ("100000 shoots a hectare", ghosts(stools=20000, shoots=100000), 400, 5),
     ("0.1 trees a hectare", ghosts(stools=0, trees=0.1), 20000, 1),
     ("shoots 2 m farther apart than the rock is wide", ghosts(spacing=2.75), 2000, 3),
@@ -69,7 +69,7 @@ def extreme(_, wood, rocks, clumps):
 
 
 def test_release_in_belt():
-    """A release inside a belt meets what stands from there on, whichever belts stand behind it"""
+    """A release inside a belt meets the stems after it, for any belts above it"""
     with Folder() as f:
         wood = ghosts(trees=300)
         for forest in ([(10, 95)], [(10, 50), (50, 95)], [(0, 30), (40, 95)]):
@@ -83,7 +83,7 @@ def test_release_in_belt():
 
 
 def test_release_uphill():
-    """Rocks thrown uphill meet the stems there once, not again on their way down, and those below the release"""
+    """Rocks thrown uphill meet the stems there once, not again on their way down, and then those below the release"""
     with Folder() as f:
         wood = ghosts(stools=0, trees=2000)
         uphill = {"x_m": 50, "height_m": 1, "vx_m_s": -9, "vz_m_s": 8}
@@ -107,7 +107,7 @@ def test_release_uphill():
 
 
 def test_dbh_spread():
-    """dbh_sd_m: as many stems are met as with their mean diameter"""
+    """dbh_sd_m: the number of met stems is that of their mean diameter"""
     with Folder() as f:
         shoots = [{**GHOST, "per_ha": 5000, "dbh_m": 0.0625, "dbh_sd_m": 0.03}]
         trees = [{**GHOST, "per_ha": 300, "dbh_m": 0.25, "dbh_sd_m": 0.15}]
@@ -121,7 +121,7 @@ def test_dbh_spread():
 
 
 def taken_per_contact(folder, wood):
-    """kJ that a rock too heavy to be turned by them loses to a stem, just behind a short belt; its error; and W of Eq. 3."""
+    """Return kJ that a very heavy rock loses per stem, just after a short belt; its error; and W of Eq. 3."""
     path = folder.write("s.yaml", wooded_scene(
         forest=None, options=[{"name": "none"}, {"name": "wood", "forest": [{"from_m": 55, "to_m": 59, "stand": wood}]}],
         rock={"shape": "sphere", "diameter_m": 3}, controls=[{"x_m": 61}], simulation={"rocks": 4000}))
@@ -132,7 +132,7 @@ def taken_per_contact(folder, wood):
 
 
 def test_energy_taken():
-    """A hit takes W of Eq. 3 (brauner, whole), or the share of W or of Dorren's energy that goes with its offset, 0.558 on the mean"""
+    """A hit takes W of Eq. 3 (brauner, whole), or by offset a share of W or of Dorren's energy, 0.558 on average"""
     with Folder() as f:
         tree = {"per_ha": 500, "dbh_m": 0.3, "height_m": 30, "volume_m3": 0.4}
         shoot = {"per_ha": 4000, "dbh_m": 0.12, "height_m": 30, "volume_m3": 0.1}
@@ -144,17 +144,17 @@ def test_energy_taken():
             for wood, wanted in ((trees, per_tree), (shoots, per_shoot)):
                 found, error, said = taken_per_contact(f, wood)
                 expect_near(said, wanted, 0.002 * wanted, f"{energy}: energy_per_contact_J")
-                # the ground that is hit between takes its share of what a stem left
+                # ground contacts between take their share of the remaining energy
                 expect_near(found, wanted, 4.5 * error + 0.06 * wanted, f"{energy}: taken by a hit")
 
 
 def test_energy_spread():
-    """dbh_sd_m: the thicker stems, which are met more often than the thin ones, take more"""
+    """dbh_sd_m: thicker stems, which are met more often, take more"""
     with Folder() as f:
         mean, sd, rock = 0.3, 0.12, 3
         shape, scale = (mean / sd) ** 2, sd * sd / mean
         cube = shape * (shape + 1) * (shape + 2) * scale ** 3
-        # W goes with the square of the diameter, the chance to be met with the rock's width and the diameter
+        # W is proportional to the squared diameter, the encounters to the rock's width plus the diameter
         wanted = 40 * (rock + cube / (mean ** 2 + sd ** 2)) / (rock + mean)
         tree = {"per_ha": 500, "dbh_m": mean, "dbh_sd_m": sd, "height_m": 30, "volume_m3": 0.4}
         trees = stand(stools=None, shoots=None, trees=[tree])
@@ -167,7 +167,7 @@ def test_energy_spread():
 
 
 def exceed(path, energy, *more):
-    """Of 100 rocks, those that arrive at the last control with more than it withstands."""
+    """Return the share of rocks, in percent, that exceed the last control's accepted energy."""
     changes = [w for k in ("forest[0]", "forest[1]") for w in ("-s", f"{k}.stand.energy={json.dumps(energy)}")] if energy else []
     run = result(path, *changes, *more, "-n", 100000)
     return [100 * o["controls"][-1]["wooded"]["exceed_probability"] for o in run["options"]]
@@ -181,7 +181,7 @@ def dorren(ratio):
 
 
 def test_laws_on_the_paper_site():
-    """The paper's site under other published laws: share above 50 kJ within half a percent point of other programs' figures"""
+    """The paper's site under other published laws: share above 50 kJ within half a percent point of other programs"""
     for energy, wanted in ((None, 47.9), ({**BRAUNER, "offset": "dorren"}, 69.6),
                            (dorren(1), 32.7), (dorren(1.5), 9.2), (dorren(1.7), 4.9)):
         expect_near(exceed("paper-site", energy)[0], wanted, 0.5, energy)
@@ -191,10 +191,10 @@ def test_laws_on_the_paper_site():
 
 
 def test_laws_turn_the_order():
-    """Just cut, large reserves are better than selection coppice by one law and worse by the other"""
+    """Just after the cut, large reserves are better than selection coppice by one law and worse by the other"""
     names = ("large reserves, just cut", "selection coppice, just cut")
     only = [w for name in names for w in ("--option", name)]
-    thin = f"options[{names[1]}].forest[0].stand.shoots[0].volume_m3={0.5 * math.pi / 4 * 0.04**2 * 5}"  # theirs by form factor 0.5
+    thin = f"options[{names[1]}].forest[0].stand.shoots[0].volume_m3={0.5 * math.pi / 4 * 0.04**2 * 5}"  # form factor 0.5
     for energy, wanted in ((BRAUNER, {names[0]: 39.8, names[1]: 55.6}),
                            (dorren(1.5), {names[0]: 28.6, names[1]: 20.0}),
                            ({**BRAUNER, "offset": "dorren"}, {names[0]: 62.1, names[1]: 72.8})):
@@ -206,7 +206,7 @@ def test_laws_turn_the_order():
 
 
 def test_grazed_stems():
-    """No law lets nearly all rocks through Vaujany's forest, where 34 of 100 passed; the default lets most through, whole fewest"""
+    """No law lets nearly all rocks pass Vaujany's forest, where 34 in 100 did; the default lets most pass, whole fewest"""
     passed = []
     for energy in ({"offset": "whole"}, {"model": "dorren"}, {}):
         run = result("vaujany", "-s", f"options[1].forest[0].stand.energy={json.dumps(energy)}", "-n", 5000)
@@ -215,7 +215,7 @@ def test_grazed_stems():
 
 
 def test_glancing_is_gone():
-    """energy.glancing, in files of ceduo's or not, and by -s, is refused with what to do instead"""
+    """energy.glancing is refused with its remedy, in any file and by -s"""
     with Folder() as f:
         path = f.write("s.yaml", wooded_scene(forest=[belt(20, 80, energy={"glancing": True})]))
         f.write("own.yaml", "energy: {glancing: true}\n")
@@ -234,7 +234,7 @@ GONE = {"simulation.contact_model=poisson": "poisson is gone; leave contact_mode
 
 
 def test_laws_that_are_gone():
-    """contact_model: poisson, energy.model: inertia and its density: what to do instead, with the place, wherever they are named"""
+    """contact_model: poisson, energy.model: inertia and its density: refused with remedy and place, anywhere"""
     for change, said in GONE.items():
         done = ceduo("--batch", "-s", change, "paper-site")
         expect_equal((done.status, done.err.splitlines()[0].startswith(f"--set:1:{change.index('=') + 2 if 'density' not in change else 24}:")),
@@ -267,7 +267,7 @@ controls: [{x_m: 95}]
 
 
 def test_offset_by_default():
-    """A stand that does not say what a hit off centre takes has offset dorren; only the paper's own stands say whole"""
+    """The default offset is dorren; only the paper's own stands have whole"""
     def figures(*arguments):
         return [{k: v for k, v in o.items() if k != "stands"} for o in result(*arguments, "-n", 2000)["options"]]
 
@@ -283,7 +283,7 @@ def test_offset_by_default():
 
 
 def test_hit_below():
-    """A hit with the rock's centre above hit_below_m takes nothing: a tall stem is as good as one that ends a radius below that"""
+    """A hit with the rock's centre above hit_below_m takes nothing: a tall stem equals one that ends a radius lower"""
     with Folder() as f:
         trees = [{"per_ha": 900, "dbh_m": 0.2, "height_m": 30, "volume_m3": 0.05}]
         mapping = wooded_scene(controls=[{"x_m": 100}])
@@ -301,7 +301,7 @@ def test_hit_below():
 
 
 def test_ratio_of_species():
-    """dorren: the fracture ratio is that of the species, or 1 with a warning"""
+    """dorren: the fracture ratio is the species', or 1 with a warning"""
     with Folder() as f:
         for species, ratio in (("fagus-sylvatica", 1.5), ("quercus-cerris", 2.2), ("robinia-pseudoacacia", 2.7),
                                ("picea-abies", 0.9), ("acer", 1.1), ("castanea-sativa", None)):
@@ -316,7 +316,7 @@ def test_ratio_of_species():
 
 
 def test_low_wood():
-    """Stumps and logs: nothing is assumed of them; what cannot be read is told once; none are none"""
+    """Stumps and logs: no assumptions; errors are reported once; 0 means none"""
     whole = {"stumps": {"per_ha": 300, "diameter_m": 0.2, "height_m": 0.3, "energy_kJ": 2},
              "logs": {"per_ha": 30, "length_m": 5, "diameter_m": 0.3, "energy_kJ": 9}}
     trees = [{"per_ha": 100, "dbh_m": 0.2, "height_m": 12, "groups": {"stems": 4, "radius_m": 2}}]
@@ -361,7 +361,7 @@ def test_dorren_thin():
 def test_height_of_stems():
     """A stem is hit only by a rock below its top"""
     with Folder() as f:
-        # the first flight goes some 18 m out and 14 m high over a belt of low stems
+        # the first flight goes some 18 m far and 14 m high over a belt of low stems
         mapping = wooded_scene(release={"height_m": 20, "vx_m_s": 8},
                                slope={"vertices_m": [[0, 60], [100, 50], [160, 45]], "segments": [{"rn": 0.3, "rt": 0.5}]},
                                controls=[{"x_m": 12}])

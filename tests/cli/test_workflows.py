@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow uncounted
-"""ceduo-workflows(7): each way as it stands in the page runs in an empty folder and says what the page says it does.
+"""ceduo-workflows(7): each way runs in an empty folder and has the results that the page states.
 
-With --readme: writes the page and the screens that README.md shows anew.
+With --readme: updates the page and the screens in README.md.
 """
 import csv
 import functools
@@ -21,13 +21,13 @@ from harness import CEDUO, FULL, PATIENCE, ROOT, Folder, expect, expect_equal, e
 PAGE = ROOT / "man" / "ceduo-workflows.7"
 PAGINA = ROOT / os.environ.get("BUILD", "build/release") / "man/it/ceduo-workflows.7"
 README = ROOT / "README.md"
-# po4a puts a comment before the paragraph that it stands in.
+# po4a puts a comment before its paragraph
 RUN = re.compile(r'^\.\\" run (\S+)\n(?:(?!\.Bd|\.\\")[^\n]*\n)*\.Bd -literal[^\n]*\n(.*?)^\.Ed$', re.M | re.S)
 KEYS_MOST = 25
 
 
 def plain(text):
-    """What the reader sees of a literal display."""
+    """Return a literal display as its reader sees it."""
     for escape, sign in ((r"\(aq", "'"), (r"\-", "-"), (r"\&", ""), (r"\(ha", "^"), (r"\(ti", "~"), (r"\e", "\\")):
         text = text.replace(escape, sign)
     requests = [line for line in text.splitlines() if line.startswith(".")]
@@ -39,9 +39,9 @@ def blocks(way, page=PAGE):
     return [plain(body) for name, body in RUN.findall(page.read_text(encoding="utf-8")) if name == way]
 
 
-# What stands for Slurm: the tasks of an array one after the other. Where tests/slurm.sh runs these tests it is a real one.
+# A replacement for Slurm: runs the tasks of an array in sequence. In tests/slurm.sh Slurm is real.
 SLURM = "SLURM_CONF" in os.environ
-# Options of GNU parallel. Told no number of jobs it asks lscpu for that of processors, which complains where there is no /sys.
+# Options of GNU parallel. Without a number of jobs it asks lscpu for the processors, which fails without /sys.
 PARALLEL = "-j 2"
 SBATCH = """#!/bin/sh
 tasks=${1#--array=}
@@ -77,7 +77,7 @@ class Machine(Folder):
 
 
 class Walk:
-    """The blocks of one way, run one after the other; what they print, and the files they leave."""
+    """Run the blocks of one way in sequence; their output, and the files they leave."""
 
     def __init__(self, way, may_say=lambda err: False, page=PAGE, **more):
         self.outputs, self.files = [], {}
@@ -98,22 +98,22 @@ class Walk:
 
 @functools.cache
 def walked(way):
-    few = {"CEDUO_ROCKS": "1024"} if way == "four-systems" and not FULL else {}  # on its screens, which take long
+    few = {"CEDUO_ROCKS": "1024"} if way == "four-systems" and not FULL else {}  # on its slow screens
     return Walk(way, understood if way == "survey" else names_columns, **few)
 
 
 def understood(err):
-    """Standard error holds nothing but the line that says how the survey was read."""
+    """Expect only the line of understanding on standard error."""
     return bool(re.fullmatch(r"six-plots.csv: 6 .*\n", err))
 
 
 def names_columns(err):
-    """--each says which columns it sets."""
+    """Expect --each to report which columns it sets."""
     return all(re.match(r"[\w ./]+: columns that are set: slope; copied: wkt, id$", line) for line in err.splitlines())
 
 
 def option_shown(start, screen):
-    """What view 5 says of an option: in its own line, or where its name takes that whole, in the next."""
+    """Return view 5's text for an option: in its own line, or in the next if its name fills that."""
     lines = [line.split("│")[0].rstrip() for line in screen.splitlines()]
     at = [i for i, line in enumerate(lines) if line.startswith(start)]
     expect(at, f"no line begins with {start!r} in:", screen)
@@ -136,7 +136,7 @@ def side_by_side(page):
 
 
 def told(pattern):
-    """Numbers that ceduo-workflows(7) has in a sentence."""
+    """Return the numbers of ceduo-workflows(7) in a sentence."""
     found = re.search(pattern, " ".join(PAGE.read_text(encoding="utf-8").split()))
     expect(found, "ceduo-workflows(7) does not say", pattern)
     return tuple(map(float, found.groups()))
@@ -149,7 +149,7 @@ def over_years(page):
 
 
 def keys_pressed(script):
-    """Keys of a script; a typed character is one."""
+    """Return the keys of a script; a typed character is one."""
     count = 0
     for line in script.splitlines():
         word, _, rest = line.strip().partition(" ")
@@ -157,10 +157,10 @@ def keys_pressed(script):
     return count
 
 
-# ---- what README.md shows ----
+# ---- contents of README.md ----
 
 def literals(text):
-    """Displays: the text of each, and the lines that it stands in."""
+    """Yield each display's text, and its lines."""
     found, lines, first = [], text.splitlines() + ["end"], None
     for i, line in enumerate(lines):
         if line.startswith("    ") and first is None:
@@ -173,7 +173,7 @@ def literals(text):
 
 
 def shown(text):
-    """The display that the program prints: a page."""
+    """Return a display as the program prints it: a page."""
     return [(body, span) for body, span in literals(text) if body.startswith("$ ./ceduo --batch")]
 
 
@@ -186,7 +186,7 @@ def printed():
 
 
 def drawn():
-    """The pages and screens that keys of man/pictures write, each file in the language of its folder: path and content."""
+    """Return the pages and screens written by the keys of man/pictures, in the language of their folder: path and content."""
     with Folder() as f:
         shutil.copytree(ROOT / "man" / "pictures", f.path / "pictures", ignore=lambda folder, names: {n for n in names if n.endswith("svg")})
         for keys in sorted(f.path.glob("pictures/**/*.keys")):
@@ -211,7 +211,7 @@ def write_readme():
 # ---- the page itself ----
 
 def test_marks():
-    """The marked blocks of the page are found"""
+    """The page has marked blocks"""
     for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("uncertainty", 2), ("hazard", 2), ("fit", 2),
                        ("page", 3), ("sections", 2), ("scenes", 7), ("valley", 6)):
         expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
@@ -230,7 +230,7 @@ def test_keys():
 
 
 def test_readme():
-    """The script, the page and the pictures of README.md are those of the program (test_workflows.py --readme)"""
+    """The script, the page and the pictures of README.md are the program's (test_workflows.py --readme)"""
     text = README.read_text(encoding="utf-8")
     script = readme_script(text)
     expect(keys_pressed(script) <= KEYS_MOST, f"{keys_pressed(script)} keys:", script)
@@ -238,7 +238,7 @@ def test_readme():
         expect(found == wanted, "README.md has", found, "the program has", wanted)
     keys = (ROOT / "man" / "pictures" / "cuts.keys").read_text()
     expect([x for x in keys.splitlines() if x.startswith("key")] == [x for x in script.splitlines() if x.startswith("key")], keys)
-    found = drawn() if FULL else []  # screens of as many rocks as ever
+    found = drawn() if FULL else []  # screens with the default number of rocks
     page = next((page for path, page in found if path.suffix == ".html"), None)
     for words in () if page is None else ("Serra Sant&#39;Abbondio", "foglio 12, particella 34", "24/11/2026", "strada comunale", "Firma"):
         expect_in(words, page, "the report that the Italian keys write")
@@ -253,7 +253,7 @@ def test_readme():
 # ---- four systems ----
 
 def test_four_systems():
-    """Four systems: grown all pass by contact, just cut only the selection coppice does; what comes through sets them apart"""
+    """Four systems: grown all pass by contact, just cut only the selection coppice does; arrivals separate them"""
     walk = walked("four-systems")
     page = walk.outputs[0]
     rows = side_by_side(page)
@@ -301,7 +301,7 @@ def test_four_systems_picture():
 
 
 def test_four_systems_csv():
-    """Four systems: the spreadsheets have a row an option and the columns named"""
+    """Four systems: the spreadsheets have a row per option and the named columns"""
     walk = walked("four-systems")
     for name, columns in (("systems.csv", ("option", "index.residual_kJ", "wooded.exceed_probability", "lights.contact", "lights.energy")),
                           ("stands.csv", ("option", "stems_per_ha"))):
@@ -312,7 +312,7 @@ def test_four_systems_csv():
 
 
 def test_four_systems_keys():
-    """Four systems: 380 reserves turn the contact light"""
+    """Four systems: 380 reserves change the contact light"""
     walk = walked("four-systems")
     before, after = walk.read("before.txt"), walk.read("after.txt")
     expect_in("44.4", before)
@@ -326,7 +326,7 @@ def test_four_systems_keys():
 
 
 def test_four_systems_in_italian():
-    """Four systems: the same keys on the Italian screens, with the figures that the Italian page names"""
+    """Four systems: the same keys on the Italian screens, with the figures of the Italian page"""
     if not FULL:
         raise harness.Skip("in check-all; test_survey_in_italian() walks an Italian way, too")
     page = " ".join(PAGINA.read_text(encoding="utf-8").split())
@@ -342,7 +342,7 @@ def test_four_systems_in_italian():
 # ---- two cuts ----
 
 def test_two_cuts():
-    """Two cuts: the page says which one passes"""
+    """Two cuts: the page names the one that passes"""
     walk = walked("two-cuts")
     expect_equal(walk.outputs[2], "profile.csv: 9 points, 110 m long, falls 98 m; columns distance, elevation\n", "--check")
     page = walk.outputs[3]
@@ -374,7 +374,7 @@ def test_two_cuts():
 
 
 def test_two_cuts_pictures():
-    """Two cuts: both pictures come"""
+    """Two cuts: both pictures are written"""
     walk = walked("two-cuts")
     pictures = walk.outputs[4]
     for words in ("side by side", "simple", "selection", "release", "mill"):
@@ -382,7 +382,7 @@ def test_two_cuts_pictures():
 
 
 def test_two_cuts_keys():
-    """Two cuts: the terminal program says what the page says"""
+    """Two cuts: the terminal program agrees with the page"""
     walk = walked("two-cuts")
     rows = side_by_side(walk.outputs[3])
     slope, compare = walk.read("slope.txt"), walk.read("compare.txt")
@@ -396,7 +396,7 @@ def test_two_cuts_keys():
 
 
 def test_two_cuts_new():
-    """Two cuts: from the profile alone, by 25 keys"""
+    """Two cuts: from the profile alone, in 25 keys"""
     walk = walked("two-cuts")
     screen = walk.read("new.txt")
     expect_in("Rock 0.6 m", screen)
@@ -407,7 +407,7 @@ def test_two_cuts_new():
 
 
 def test_survey():
-    """From a survey to a page: the stand, the comparison, how sure, and the page in two languages"""
+    """From a survey to a page: the stand, the comparison, the uncertainty, and the page in two languages"""
     walk = walked("survey")
     head = walk.read("stand.yaml")
     stools, shoots, standards = (float(re.search(rf"^# {name} +(\d+)", head, re.M)[1]) for name in ("stools", "shoots", "standards"))
@@ -432,7 +432,7 @@ def test_survey():
 
 
 def test_survey_in_italian():
-    """The whole way in Italian, from two CSV files to the page: no sentence of it stays English, and the figures are the same"""
+    """The whole way in Italian, from two CSV files to the page: no English sentence remains, and the figures are equal"""
     walk = Walk("survey", understood, page=PAGINA, LANGUAGE="it")
     english = walked("survey")
     expect_equal(len(walk.outputs), len(english.outputs), "steps")
@@ -469,7 +469,7 @@ wait idle
 
 
 def test_survey_on_the_italian_screen():
-    """What the page says at its end: 2, p and 'da un rilievo' take the survey for the belt that is shown"""
+    """The end of the page: 2, p and 'da un rilievo' use the survey for the shown belt"""
     texts = blocks("survey", PAGINA)[:3]
     with Folder() as work, Machine() as machine:
         work.write("keys", KEYS)
@@ -483,7 +483,7 @@ def test_survey_on_the_italian_screen():
 
 
 def test_reserves():
-    """How many reserves: 379 for 30 m, no diameter does, and a quarter of the rocks takes more of them"""
+    """Reserves needed: 379 for 30 m, no diameter does, and a quarter of the rocks needs more"""
     walk = walked("reserves")
     expect_equal(len(walk.outputs), 4, "blocks")
     expect_in("per_ha = 379", walk.outputs[0])
@@ -497,7 +497,7 @@ def test_reserves():
 
 
 def test_groups():
-    """Standards in groups: as many a hectare, more free runs, more rocks with too much energy; the figures of the page"""
+    """Standards in groups: equal density, more free runs, more rocks with too much energy; the figures of the page"""
     walk = walked("groups")
     runs, stands = ({row["option"]: row for row in csv.DictReader(walk.read(name).splitlines())} for name in ("groups.csv", "stands.csv"))
     rows = {name: (float(stands[name]["free_run_probability"]),
@@ -520,7 +520,7 @@ def test_groups():
 
 
 def test_uncertainty():
-    """How sure: the uncertainty is many times the error of the rocks, most of it comes from the energy law"""
+    """Uncertainty: many times the sampling error, mainly from the energy law"""
     walk = walked("uncertainty")
     now, lo, hi, low, high = map(int, re.search(r"current +(\d+) +(\d+)–(\d+) +(\d+)–(\d+)", walk.outputs[0]).groups())
     expect(450 < now < 510 and 440 < lo < hi < 520, "480, 30 more or less", now, lo, hi)
@@ -538,7 +538,7 @@ def test_uncertainty():
 
 
 def test_hazard():
-    """How often: years without and with the old coppice, just cut, the energy of 300 years, the picture"""
+    """Frequency: years without and with the old coppice, just cut, the energy of 300 years, the picture"""
     walk = walked("hazard")
     page = " ".join(walk.outputs[0].split())
     expect_in("Within the limit over these years: none.", page)
@@ -553,7 +553,7 @@ def test_hazard():
 
 
 def test_fit():
-    """Does it fit: the ranges hold the values that the stops were made with, and the scene that is written carries them"""
+    """Fit: the ranges contain the values behind the stops, and the written scene has them"""
     walk = walked("fit")
     for name, truth in (("roughness, m", 0.12), ("friction", 0.35)):
         low, high = map(float, re.search("^  " + name + r" .* (0\.\d+)–(0\.\d+)$", walk.outputs[0], re.M).groups())
@@ -565,7 +565,7 @@ def test_fit():
 
 
 def test_page():
-    """A page to hand in: question and answer with both kinds of error, chapters, names of one's own"""
+    """A page to hand in: question and answer with both kinds of error, chapters, the user's names"""
     walk = walked("page")
     pages = {name: walk.read(f"{name}.html") for name in ("page", "draft", "mill")}
     answer = re.search(r'<div class="answer">(.*?)</div>', pages["page"], re.S).group(1)
@@ -580,7 +580,7 @@ def test_page():
 
 
 def test_sections():
-    """A felling plan: the same metres felled, a better worst year, the same mean, more years without contact"""
+    """A felling plan: equal metres felled, a better worst year, the same mean, more years without contact"""
     walk = walked("sections")
     page = " ".join(walk.outputs[0].split())
     ends = re.findall(r"mean (\d+) ±(\d+) of 1000, worst (\d+).*?contact (\d+), free run \d+ of 25\..*?Felled: (\d+) m", page)
@@ -603,7 +603,7 @@ def needs_parallel():
 
 
 def test_scenes():
-    """Many scenes: by a pipe, by files and by a job array the rows of one call; what failed is computed again alone"""
+    """Many scenes: a pipe, files and a job array give the rows of one call; failed ones are repeated alone"""
     needs_parallel()
     walk = walked("scenes")
     wanted = walk.read("one-call.csv")
@@ -614,7 +614,7 @@ def test_scenes():
 
 
 def test_two_hundred_scenes():
-    """Of 200 scenes a pipe through GNU parallel, and a job array, give the bytes of one call"""
+    """For 200 scenes a pipe through GNU parallel, and a job array, give the bytes of one call"""
     needs_parallel()
     with Folder() as work, Machine() as machine:
         names = [work.write(f"s{i:03}.yaml", harness.scene(simulation={"rocks": 200, "seed": i})).name for i in range(200)]
@@ -632,7 +632,7 @@ def test_two_hundred_scenes():
 
 
 def test_valley():
-    """A valley: a row for each profile, worse where it is higher, the same by all ways"""
+    """A valley: a row per profile, worse if it is higher, equal by all ways"""
     needs_parallel()
     walk = walked("valley")
     rows = list(csv.DictReader(io.StringIO(walk.read("map.csv"))))
@@ -645,7 +645,7 @@ def test_valley():
 
 
 def test_job_array():
-    """The job array is sound for sh, and says what is wrong"""
+    """The job array is valid for sh, and reports errors"""
     script = ROOT / "profiles/jobs/ceduo-array.sbatch"
     done = subprocess.run(["sh", "-n", script], capture_output=True, text=True, check=False)
     expect_equal((done.returncode, done.stderr), (0, ""), "sh -n")
@@ -661,7 +661,7 @@ def test_job_array():
 
 
 def test_job_array_again():
-    """Of a job array some tasks die: no half file is left, and they alone are computed again"""
+    """Some tasks of a job array die: no half file remains, and only they are repeated"""
     with Folder() as work, Machine() as machine:
         machine.write("share/array", (ROOT / "profiles/jobs/ceduo-array.sbatch").read_text())
         (machine.path / "bin/ceduo").unlink()

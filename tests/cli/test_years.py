@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow threads
-"""Options year by year (--years), and the value of a parameter that reaches a goal (--find)."""
+"""Options year by year (--years), and the value of a parameter that meets a goal (--find)."""
 import copy
 import csv
 import io
@@ -29,7 +29,7 @@ WIDTH = 80  # columns of the page
 
 
 def coppice(rotation=25, stay=(30, 30), **changes):
-    """A simple coppice that grows."""
+    """A growing simple coppice."""
     stand = {"name": "coppice", "species": "ostrya-carpinifolia", "stools": {"per_ha": 2500, "spacing_m": 0.35},
              "shoots": [{"per_ha": 7500, "dbh_m": 0.05, "height_m": 6}],
              "trees": [{"per_ha": 60, "dbh_m": 0.2, "height_m": 12}],
@@ -44,7 +44,7 @@ def belt(begin, end, stand, **changes):
 
 
 def site(*belts, rocks=200, options=None, controls=None, **changes):
-    """The paper's slope and rock with other woods on it."""
+    """Return the paper's slope and rock with other forests."""
     mapping = {"ceduo": "scene/1", "title": "years",
                "rock": {"shape": "cylinder", "diameter_m": 0.56, "height_m": 0.80, "density_kg_m3": 2600},
                "release": {"vx_m_s": 0.3, "vz_m_s": -0.3}, "slope": str(PROFILES / "slopes" / "paper.yaml"),
@@ -67,12 +67,12 @@ def run(mapping, years, *arguments, **options):
 
 
 def years_of(mapping, years, *arguments, **options):
-    """The years of a scene's first option."""
+    """Return the years of a scene's first option."""
     return run(mapping, years, *arguments, **options)["options"][0]["years"]
 
 
 def keys_of(value):
-    """The shape of some JSON: its keys, at any depth, the first item of a list for all."""
+    """Return the shape of JSON: its keys, at any depth, the first item of each list."""
     if isinstance(value, dict):
         return {key: keys_of(item) for key, item in value.items()}
     if isinstance(value, list):
@@ -85,17 +85,17 @@ def without_year(year):
 
 
 def of_own_law(value):
-    """The same without what the other energy law makes of it, which years do not say, and without the answer, which is of the years."""
+    """Return it without the figures of the other energy law, which years lack, and without the answer, which is over the years."""
     if isinstance(value, list):
         return [of_own_law(v) for v in value]
     return {k: v for k, v in value.items() if k not in ("other_energy", "verdict")}
 
 
-# ---- the JSON of the years ----
+# ---- JSON of the years ----
 
 
 def test_shape():
-    """--years: each option lists its years, each with stands, summary and controls as in the run, and their sum"""
+    """--years: each option lists its years, each with stands, summary and controls as in the run, and their totals"""
     found = run(four_systems(), "0:10:5")
     expect_equal([o["name"] for o in found["options"]], [name for name, _ in SYSTEMS])
     for option in found["options"]:
@@ -112,15 +112,15 @@ def test_shape():
 
 
 def test_stretches():
-    """--years: A:B and A:B:STEP, the last year only where a step meets it, and one year alone"""
+    """--years: A:B and A:B:STEP, the last year only if a step meets it, and a single year"""
     for given, wanted in (("3:6", [3, 4, 5, 6]), ("0:7:3", [0, 3, 6]), ("4:4", [4]), ("4:4:9", [4]), ("0:1e1:5", [0, 5, 10])):
         expect_equal([y["year"] for y in years_of(site(belt(0, 135, coppice()), rocks=1), given)], wanted, given)
 
 
 def test_year_0():
-    """Year 0 is the plain run to the last digit where no cut falls in it, and the run beside it does not change"""
+    """Year 0 equals the plain run to the last digit unless it has a cut, and does not change the run"""
     mapping = four_systems(rocks=500)
-    mapping["options"][3]["forest"][0]["cut_year"] = -25  # its rhythm has a cut in year 0
+    mapping["options"][3]["forest"][0]["cut_year"] = -25  # its rotation has a cut in year 0
     mapping["options"].append({"name": "bare", "forest": []})
     with Folder() as f:
         path = f.write("s.yaml", mapping)
@@ -148,7 +148,7 @@ def test_grows():
 
 
 def test_threads():
-    """--years: the same bytes for one thread and two, in every format"""
+    """--years: equal bytes for one thread and two, in every format"""
     with Folder() as f:
         path = f.write("s.yaml", four_systems(rocks=1100))
         for form in ("json", "csv", "table"):
@@ -168,8 +168,8 @@ def test_implied():
 
 
 def expect_work(found, runs):
-    """So many runs, the bare one among them; what was asked for beyond them was there already. The forest as filed flies
-    under the other energy law as well."""
+    """Expect this number of runs, including the bare one; others are reused. The forest of the file runs under the other energy
+    law as well."""
     other = runs > 1
     work, options = found["work"], found["options"]
     asked = sum(2 + len(o["years"]) for o in options)
@@ -178,19 +178,19 @@ def expect_work(found, runs):
 
 
 def test_flown_once():
-    """Years with the same wood are flown once: no growth 2 runs, 52 years of a rotation of 25 at most 26 woods"""
+    """Years with equal forests are simulated once: 2 runs without growth, at most 26 forests in 52 years of rotation 25"""
     still = coppice(growth=None)
     expect_work(run(site(belt(0, 135, still)), "0:10"), 2)
-    expect_work(run(site(belt(0, 135, still, cut_year=3)), "0:10"), 2)  # growth unknown: it is not cut either
+    expect_work(run(site(belt(0, 135, still, cut_year=3)), "0:10"), 2)  # unknown growth: no cuts either
     expect_work(run(site(belt(0, 135, coppice(), cut_year=1), rocks=50), "0:51"), 1 + 26)
-    expect_work(run(site(belt(0, 135, coppice(), cut_year=0), rocks=50), "0:51"), 1 + 1 + 25)  # as filed, and 25
-    expect_work(run(site(belt(0, 135, coppice(stay=[]), cut_year=1), rocks=50), "0:51"), 26)  # just cut it is bare
+    expect_work(run(site(belt(0, 135, coppice(), cut_year=0), rocks=50), "0:51"), 1 + 1 + 25)  # the file's, and 25
+    expect_work(run(site(belt(0, 135, coppice(stay=[]), cut_year=1), rocks=50), "0:51"), 26)  # bare just after the cut
     twins = [(name, [belt(0, 135, coppice(), cut_year=1)]) for name in ("one", "another")]
     expect_work(run(site(options=twins, rocks=50), "0:30"), 1 + 26)
 
 
 def test_no_forest():
-    """Without forest all years are the bare run, and nothing is felled"""
+    """Without forest all years equal the bare run, and nothing is felled"""
     found = run(site(), "0:5")
     expect_work(found, 1)
     for year in found["options"][0]["years"]:
@@ -208,11 +208,11 @@ def cut_years(years):
 
 
 def test_cuts():
-    """Cuts fall in cut_year and each rotation after it, by default when the shoots are old enough"""
+    """Cuts fall in cut_year and each rotation after it, by default when the shoots reach rotation age"""
     for given, wanted in ((7, [7, 17, 27]), (-5, [5, 15, 25]), (6.2, [7, 17, 27]), (0, [0, 10, 20, 30]), (40, [])):
         found = years_of(site(belt(0, 135, coppice(10), cut_year=given), rocks=1), "0:30")
         expect_equal(cut_years(found), wanted, f"cut_year {given}")
-    age = -math.log(1 - 5 / 16) / 0.022  # of shoots of 5 cm
+    age = -math.log(1 - 5 / 16) / 0.022  # for shoots of 5 cm
     expect_equal(cut_years(years_of(site(belt(0, 135, coppice()), rocks=1), "0:60")), [8 + 25 * i for i in range(3)],
                  f"{25 - age:.1f} years before they are 25")
     young = coppice(shoots=[{"per_ha": 7500, "dbh_m": 0.05, "height_m": 6, "age_y": 22}])
@@ -221,7 +221,7 @@ def test_cuts():
 
 
 def test_a_rotation_later():
-    """From the first cut on everything is the same a rotation later, to the last digit"""
+    """From the first cut on everything repeats after a rotation, to the last digit"""
     found = run(four_systems(rocks=100), "0:41")
     for option in found["options"]:
         rotation = 13 if option["name"] == "selection" else 25
@@ -234,7 +234,7 @@ def test_a_rotation_later():
 
 
 def test_felled():
-    """Staggered or at once, over whole rotations the same metres are felled"""
+    """Staggered or at once, whole rotations fell equal metres"""
     thirds = [belt(45 * i, 45 * i + 45, coppice(12), cut_year=4 * i) for i in range(3)]
     late = [belt(45 * i, 45 * i + 45, coppice(12), cut_year=11 - 5 * i) for i in range(3)]
     options = [("at once", [belt(0, 135, coppice(12), cut_year=5)]), ("staggered", thirds), ("other years", late),
@@ -244,13 +244,13 @@ def test_felled():
         expect_equal([o["rotation"]["felled_m"] for o in found], [135 * rotations] * 4 + [0], years)
         for option in found:
             by_hand = sum(b["to_m"] - b["from_m"] for y in option["years"] for b in y["stands"]
-                          if b["stools_per_ha"] == 0)  # just cut: no stool stands
+                          if b["stools_per_ha"] == 0)  # no stools just after the cut
             expect_equal(option["rotation"]["felled_m"], by_hand, f"{option['name']}: belts without stools")
     expect_equal(cut_years(found[1]["years"]), list(range(0, 36, 4)), "staggered")
 
 
 def test_selection():
-    """A selection coppice of three cohorts is never without stems, and its cuts leave the stools"""
+    """A selection coppice of three cohorts always has stems, and its cuts keep the stools"""
     selection = coppice(13, [0, 0, 0, 40], cutting={"rotation_years": 13, "cohorts": 3, "stay_per_ha": [0, 0, 0, 40]},
                         stools={"per_ha": 1200, "spacing_m": 0.3})
     for mapping in (site(belt(0, 135, str(STANDS / "selection-coppice.yaml")), rocks=20),
@@ -274,7 +274,7 @@ def mean(values):
 
 
 def expect_sum(option, at, rate=None):
-    """`rotation` from the list of years, at one control."""
+    """Expect `rotation` to follow from the years, at one control."""
     rotation, years = option["rotation"], option["years"]
     arrivals = [y["controls"][at]["wooded"] for y in years]
     n = option["released"]
@@ -290,9 +290,9 @@ def expect_sum(option, at, rate=None):
             expect_equal(rotation[key], {"mean": None, "se": None}, key)
             continue
         expect_near(rotation[key]["mean"], mean(shares), 1e-14, key)
-        bound = mean(math.sqrt(p * (1 - p) / n) for p in shares)  # as if all years went together
+        bound = mean(math.sqrt(p * (1 - p) / n) for p in shares)  # as if all years were one
         if key == compared:  # from each rock's own mean over the years
-            single = mean(p * (1 - p) / n for p in shares) / len(shares)  # as if each year had rocks of its own
+            single = mean(p * (1 - p) / n for p in shares) / len(shares)  # as if each year had independent rocks
             expect(0.9 * math.sqrt(single) < rotation[key]["se"] <= bound * (1 + 1 / n), key, rotation[key], single, bound)
         else:
             expect_near(rotation[key]["se"], bound, 1e-14, f"{key}: se")
@@ -300,7 +300,7 @@ def expect_sum(option, at, rate=None):
     for key in ("mean", "se"):
         expect_near(rotation["energy_per_released_kJ"][key], mean(e[key] for e in energies), 1e-12, f"energy: {key}")
     key = "reach_probability" if arrivals[0]["exceed_probability"] is None else "exceed_probability"
-    worst = max(range(len(years)), key=lambda i: arrivals[i][key])  # the first of them
+    worst = max(range(len(years)), key=lambda i: arrivals[i][key])  # the first one
     expect_equal(rotation["worst_year"], years[worst]["year"], "worst year")
     for name, key in (("reach_per_year", "reach_probability"), ("exceed_per_year", "exceed_probability")):
         share = rotation[key]["mean"]
@@ -311,7 +311,7 @@ def expect_sum(option, at, rate=None):
 
 
 def test_sum():
-    """The mean, the worst year and the unprotected years are those of the list, at the farthest control"""
+    """The mean, the worst year and the unprotected years follow from the years, at the farthest control"""
     controls = [{"x_m": 60, "accepted_kJ": 5}, {"x_m": 135, "accepted_kJ": 50}, {"x_m": 90}]
     for last in (1, 2):
         controls[2]["x_m"] = 90 if last == 1 else 140
@@ -322,9 +322,9 @@ def test_sum():
 
 
 def test_thick_stems():
-    """Years that fail counting only stems from 8 cm on are those of a scene whose stems of contact begin at 8 cm"""
+    """Failing years by stems from 8 cm on equal those of a scene whose contact stems begin at 8 cm"""
     with Folder() as f:
-        many = [{"per_ha": 500, "dbh_m": 0.2, "height_m": 12}]  # 20 m apart along the way: contact passes, free run does not
+        many = [{"per_ha": 500, "dbh_m": 0.2, "height_m": 12}]  # 20 m apart along the slope: contact passes, free run does not
         path = f.write("s.yaml", site(belt(0, 135, coppice(30, stay=[500], trees=many), cut_year=2), rocks=50))
         every, thick = (result("--years", "0:29", "-s", f"simulation.contact_dbh_m={dbh}", path)["options"][0]["rotation"] for dbh in (0, 0.08))
     keys = ("unprotected_contact", "unprotected_free_run")
@@ -333,7 +333,7 @@ def test_thick_stems():
 
 
 def test_rocks_per_year():
-    """rocks_per_year: expected passes a year are the mean share that arrives times the rocks"""
+    """rocks_per_year: expected passes per year are the mean arriving share times the rocks"""
     for rate in (0, 0.25, 3, 1000):
         found = run(site(belt(0, 135, coppice(8)), rocks_per_year=rate, rocks=100), "0:9")["options"][0]
         found["released"] = 100
@@ -345,7 +345,7 @@ def test_rocks_per_year():
 
 
 def test_index():
-    """With the contact model index no rock meets a stem: the years show the index alone"""
+    """With the contact model index no rock meets a stem: the years have only the index"""
     mapping = four_systems(rocks_per_year=2, simulation={"contact_model": "index"})
     found = run(mapping, "0:26")
     expect_equal((found["work"]["runs"], found["work"]["rocks_flown"]), (1, 200))
@@ -382,7 +382,7 @@ def same_cell(cell, value):
 
 
 def test_csv():
-    """CSV: a row for each option, year and control, year and cut after option, all values as in JSON"""
+    """CSV: a row per option, year and control, year and cut after option, all values as in JSON"""
     controls = [{"x_m": 135, "name": "road, new", "accepted_kJ": 50}, {"x_m": 60}]
     for simulation in ({}, {"contact_model": "index"}):
         with Folder() as f:
@@ -416,7 +416,7 @@ def test_csv():
 
 
 def test_csv_warnings():
-    """CSV: the warnings of a row are those of its own year"""
+    """CSV: a row has the warnings of its own year"""
     mapping = site(belt(0, 135, coppice(8, [10]), cut_year=2), minimum={"reserves_per_ha": 40}, rocks=50)
     with Folder() as f:
         path = f.write("s.yaml", mapping)
@@ -436,7 +436,7 @@ def year_lines(text):
 
 
 def test_page():
-    """The page: a line a year, none wider than 80 columns, in UTF-8 and in ASCII"""
+    """The page: a line per year, at most 80 columns wide, in UTF-8 and in ASCII"""
     scenes = [four_systems(rocks=100, rocks_per_year=0.5), four_systems(rocks=100, controls=[{"x_m": 135}]),
               four_systems(rocks=100, simulation={"contact_model": "index"})]
     for mapping in scenes:
@@ -454,7 +454,7 @@ def test_page():
 
 
 def test_page_figures():
-    """The page's years say what JSON says: cut, ADC, lights, of 1000"""
+    """The page's years equal JSON: cut, ADC, lights, per 1000"""
     with Folder() as f:
         path = f.write("s.yaml", site(belt(0, 135, coppice(12), cut_year=3), rocks=1000))
         text = good(*WHOLE, "--years", "0:16", path).out
@@ -481,7 +481,7 @@ def test_page_figures():
 
 
 def test_page_of_none():
-    """Where no rock has too much energy the mean of none has the error of none: Wilson's interval of 0 of 1000, up to 3.8"""
+    """Without exceeding rocks the mean has the error of 0: Wilson's interval of 0 in 1000, up to 3.8"""
     with Folder() as f:
         path = f.write("s.yaml", site(belt(0, 135, coppice(12)), rocks=1000, controls=[{"x_m": 135, "accepted_kJ": 1e6}]))
         flat = " ".join(good(*WHOLE, "--years", "0:2", path).out.split())
@@ -490,7 +490,7 @@ def test_page_of_none():
 
 
 def test_page_gaps():
-    """The page's columns do not run into each other where all rocks arrive"""
+    """The page's columns stay separate if all rocks arrive"""
     with Folder() as f:
         path = f.write("s.yaml", site(belt(0, 135, coppice(6, []), cut_year=0), controls=[{"x_m": 30}], rocks=1000))
         text = good(*WHOLE, "--years", "0:8", path).out
@@ -501,7 +501,7 @@ def test_page_gaps():
 
 
 def rotations(text, names):
-    """The rows of the table over the years by option, and the words below it."""
+    """Return the rows of the table over the years by option, and the words below it."""
     table = text.split("\n    Over ")[1].split("\n\n")[0]
     rows = {name: next(line for line in table.splitlines() if line.startswith(f"  {name} ")) for name in names}
     return rows, " ".join(text.split())
@@ -511,7 +511,7 @@ NAMES = ["simple coppice", "coppice with standards", "selection coppice", "large
 
 
 def test_page_rotations():
-    """The page: side by side the options over the years, as JSON has them, and a sentence for the years and one for today"""
+    """The page: the options over the years, equal to JSON, and a sentence each for the years and today"""
     text = good(*WHOLE, "--years", "0:26", "-n", 1000, "rotation").out
     rows, words = rotations(text, NAMES)
     options = {o["name"]: o for o in result("--years", "0:26", "-n", 1000, "rotation")["options"]}
@@ -539,7 +539,7 @@ def test_page_rotations():
 
 
 def test_years_ahead():
-    """--years without a range: the years ahead, the same for all options, as on the plain page; the scene may name others"""
+    """--years without a range: the coming years, equal for all options, as on the plain page; the scene may set others"""
     run_of = result("--years", "-n", 200, "rotation")
     years = {o["name"]: [y["year"] for y in o["years"]] for o in run_of["options"]}
     expect_equal(years, {name: list(range(1, 26)) for name in NAMES})
@@ -548,7 +548,7 @@ def test_years_ahead():
     expect_in("Over years 1 to 25, counted from today:", re.sub(r"\s+", " ", text))
     rows, words = rotations(text, NAMES)
     for option in run_of["options"]:
-        same = option["rotation"]["exceed_probability"]  # the same rocks in all years: on the page each year has its own
+        same = option["rotation"]["exceed_probability"]  # equal rocks in all years; on the page each year has its own
         mean, half = re.search(r" (\d+)±(\d+) ", rows[option["name"]]).groups()
         expect_near(int(mean), 1000 * same["mean"], int(half) + 1960 * same["se"], option["name"])
         share = int(mean) / 1000
@@ -565,7 +565,7 @@ def test_years_ahead():
 
 
 def test_alike_years():
-    """A stand without growth: its answer is that of today, and the page says why; its years are counted beside the others'"""
+    """A stand without growth: its answer is today's, and the page gives the reason; its years count with the others'"""
     still = coppice(growth=None)
     with Folder() as f:
         path = f.write("s.yaml", site(options=[("grows", [belt(0, 135, coppice())]), ("still", [belt(0, 135, still)]), ("none", [])]))
@@ -578,7 +578,7 @@ def test_alike_years():
 
 
 def test_just_cut():
-    """The presets that were just cut grow again: a year later shoots come up, and their rotation is that of the grown ones"""
+    """Freshly cut presets grow again: shoots sprout after a year, and their rotation is that of the grown ones"""
     systems = ("simple-coppice", "coppice-with-standards", "large-reserves", "selection-coppice")
     options = [(name + cut, [belt(0, 135, name + cut)]) for name in systems for cut in ("", "-cut")]
     found = {o["name"]: o for o in run(site(options=options), "0:30", "-n", 1)["options"]}
@@ -601,7 +601,7 @@ BAD_YEARS = ["5", "5:1", "a:b", "0:5:0", "0:1000", "0:5000:5", "-1:5", "0.5:3", 
 
 
 def test_years_usage():
-    """--years that is not a range of years, goes backwards or is too long: status 2 and a line that says it"""
+    """--years that is not a range of years, goes backwards or is too long: status 2 with a message"""
     for years in BAD_YEARS:
         done = ceduo("--batch", "--years", years, "paper-site")
         expect(done.status == USAGE and done.out == "" and done.err.startswith("ceduo: --years: "), f"'{years}'", done)
@@ -609,7 +609,7 @@ def test_years_usage():
     good("--batch", "--years", "0:999", "-n", 1, "paper-site")
 
 
-# ---- what the paper says, what others found ----
+# ---- the paper, and other studies ----
 
 
 def test_right_after_the_cut():
@@ -639,7 +639,7 @@ def test_right_after_the_cut():
 
 
 def test_old_and_young():
-    """From year to year a coppice has fewer shoots, and fewer rocks come through: old ones protect better"""
+    """From year to year a coppice has fewer shoots, and fewer rocks pass: old ones protect better"""
     stand, rocks = coppice(45, [], trees=None), 20000 if FULL else 5000
     years = years_of(site(belt(0, 135, stand, cut_year=1), rocks=rocks), "2:45")
     rows = []
@@ -663,7 +663,7 @@ def test_old_and_young():
     expect(rows[-1][3] < 0.1 * rows[0][3], "from the first to the last year", rows[0], rows[-1])
 
 
-# ---- what a wood must keep ----
+# ---- required minimum of a forest ----
 
 
 def warned(stands):
@@ -671,7 +671,7 @@ def warned(stands):
 
 
 def test_minimum():
-    """minimum.reserves_per_ha: noted where a wood has fewer single trees, not where it has as many"""
+    """minimum.reserves_per_ha: noted if a forest has fewer single trees, not if it has enough"""
     two = [belt(0, 60, coppice(trees=[{"per_ha": 50, "dbh_m": 0.2, "height_m": 12}, {"per_ha": 30, "dbh_m": 0.3, "height_m": 14}])),
            belt(60, 135, coppice(name="few"))]
     for least, wanted in ((0, [False, False]), (60, [False, False]), (61, [False, True]), (80, [False, True]), (81, [True, True])):
@@ -692,14 +692,14 @@ def result_of(mapping):
 
 
 def test_minimum_in_years():
-    """minimum.reserves_per_ha: in the years too, from the cut on that leaves too few"""
+    """minimum.reserves_per_ha: in the years too, from the first cut that leaves too few"""
     for stay, kept in (([40, 20], True), ([40, 19], False)):
         years = years_of(site(belt(0, 135, coppice(8, stay), cut_year=3), minimum={"reserves_per_ha": 60}, rocks=20), "0:12")
         expect_equal([warned(y["stands"]) for y in years], [[not kept and y["year"] >= 3] for y in years], f"stay {stay}")
 
 
 def test_minimum_of_nothing():
-    """minimum.reserves_per_ha: a cut that leaves no stem at all is noted in its own year"""
+    """minimum.reserves_per_ha: a cut that leaves no stem is noted in its own year"""
     years = years_of(site(belt(0, 135, coppice(8, []), cut_year=3), minimum={"reserves_per_ha": 60}, rocks=20), "0:5")
     expect_equal([warned(y["stands"])[0] for y in years], [False] * 3 + [True] * 3, "noted")
 
@@ -712,7 +712,7 @@ FOUND = {"format", "version", "scene", "path", "option", "goal", "target", "lo",
 
 
 def reserves(per_ha=60, rocks=1000, **changes):
-    """Single trees of 20 cm and nothing else."""
+    """Single trees of 20 cm only."""
     stand = {"name": "reserves", "species": "ostrya-carpinifolia",
              "trees": [{"per_ha": per_ha, "dbh_m": 0.2, "height_m": 12}]}
     return site(belt(0, 135, stand), rocks=rocks, **changes)
@@ -725,7 +725,7 @@ def find(mapping, path, lo, hi, goal, *arguments):
 
 
 def at(mapping, path, value):
-    """A copy with the number at a path like 'a[0].b.c' set."""
+    """Return a copy with the number at a path like 'a[0].b.c' set."""
     changed = copy.deepcopy(mapping)
     place, keys = changed, re.findall(r"[\w]+|(?<=\[)\d+", path)
     for key in keys[:-1]:
@@ -735,7 +735,7 @@ def at(mapping, path, value):
 
 
 def goal_of(run_found, goal):
-    """What --find calls the goal, from a plain run: the worst belt, the worst control."""
+    """Return --find's goal, from a plain run: the worst belt, the worst control."""
     option = run_found["options"][0]
     if goal == "adc":
         return max(math.inf if s["adc"]["adc_m"] is None else s["adc"]["adc_m"] for s in option["stands"])
@@ -752,7 +752,7 @@ def passes(goal, value, target):
 
 
 def test_find_reserves():
-    """60 reserves of 20 cm miss 30 m; --find: 379 a hectare reach it, 378 do not"""
+    """60 reserves of 20 cm miss 30 m; --find: 379 per hectare meet it, 378 do not"""
     mapping = reserves()
     adc = goal_of(run(mapping, "0:0"), "adc")
     expect(189 < adc < 190, f"60 a hectare: ADC {adc} (the paper: some 190 m)")
@@ -769,7 +769,7 @@ def test_find_reserves():
 
 
 def test_find_over_years():
-    """--find over a rotation: of shares the mean over its years, of all else the worst year; by the index a share is that without forest"""
+    """--find over a rotation: shares by the mean over its years, all else by the worst year; by the index shares without forest"""
     for model, goals in (("stems", ("arrive=1", "adc=1e6", "free-run=1", "energy=1e6", "exceed=1")), ("index", ("arrive=1", "adc=1e6"))):
         mapping = site(belt(0, 135, coppice(rotation=5, stay=[30])), rocks=40, simulation={"contact_model": model})
         rows = run(mapping, "1:5")["options"][0]["years"]
@@ -797,7 +797,7 @@ GOALS = 200
 
 
 def random_case(rng):
-    """A scene, a parameter and a range of it, and a value in or near the range whose goal is to be the target."""
+    """Return a scene, a parameter with its range, and a value in or near the range whose goal is the target."""
     path, whole, most_lo, most_hi, settings = rng.choice(KINDS)
     stand = coppice(shoots=[{"per_ha": 7500, "dbh_m": 0.06, "height_m": 6}])
     if "trees[0]" in path:
@@ -811,16 +811,16 @@ def random_case(rng):
 
 
 def forward(folder, name, scenes):
-    """What plain runs of many scenes find, one after the other."""
+    """Return the goals of plain runs of many scenes, one by one."""
     paths = [folder.write(f"{name}-{i}.yaml", mapping) for i, mapping in enumerate(scenes)]
     return [found for k in range(0, len(paths), 100) for found in results("-n", 1, *paths[k:k + 100])]
 
 
 def test_find_and_forward():
-    """200 random goals: what --find gives passes in a run, the next number on the other side does not"""
+    """200 random goals: the result of --find passes in a run, and its neighbour on the other side does not"""
     rng = random.Random(2009)
     cases = [random_case(rng) for _ in range(GOALS)]
-    checks = []  # (what was found, goal, target, ends, values to try)
+    checks = []  # (result, goal, target, ends, values to try)
     with Folder() as f:
         aims = forward(f, "aim", [at(mapping, path, inside) for mapping, path, *_, inside in cases])
         for i, ((mapping, path, whole, lo, hi, goal, _), aim) in enumerate(zip(cases, aims)):
@@ -846,7 +846,7 @@ def test_find_and_forward():
 
 
 def one_goal(found, goal, target, ends, seen):
-    """`seen`: the goals at both ends, at the value found, and at the next one that should fail."""
+    """`seen`: the goals at both ends, at the result, and at its neighbour that should fail."""
     ok = [g is not None and passes(goal, g, target) for g in seen]
     expect_equal(found["found"], ok[0] or ok[1], f"found: {found}")
     if not found["found"]:
@@ -865,7 +865,7 @@ def one_goal(found, goal, target, ends, seen):
 
 
 def test_find_rocks():
-    """Goals exceed and energy: the same rocks forward give the same figure; the next whole number fails"""
+    """Goals exceed and energy: equal rocks in a plain run give the same figure; the next whole number fails"""
     mapping = reserves(controls=[{"x_m": 135, "accepted_kJ": 50}, {"x_m": 60, "accepted_kJ": 60}])
     for goal, target in (("exceed", 0.05), ("exceed=0.3", 0.3), ("energy=60", 60), ("energy=38.5", 38.5)):
         found = find(mapping, RESERVES, 1, 3000, goal)
@@ -891,7 +891,7 @@ def test_find_index():
 
 
 def test_find_whole():
-    """Densities and years are whole numbers on the side that passes, other values are not"""
+    """Densities and years are whole numbers on the passing side, other values are not"""
     mapping = reserves()
     expect_equal(find(mapping, RESERVES, 0.5, 5000.5, "adc")["value"], 379)
     expect_equal(find(mapping, RESERVES, 378.2, 379.9, "adc")["value"], 379, "one whole number")
@@ -900,7 +900,7 @@ def test_find_whole():
     grown = site(belt(0, 135, coppice(), cut_year=3))
     for path in ("forest[0].stand.cutting.rotation_years", "forest[0].cut_year", "forest[0].stand.shoots[0].per_ha",
                  "forest[0].stand.stools.per_ha", "simulation.seed"):
-        goal = "exceed=1" if "rotation" in path or "cut_year" in path else "adc"  # just cut, no rotation has a small ADC
+        goal = "exceed=1" if "rotation" in path or "cut_year" in path else "adc"  # adc: not just after the cut
         found = find(grown, path, 2600.5 if "per_ha" in path else 1.5, 2700.5 if "per_ha" in path else 40.5, goal, "-n", 2)
         expect_equal(found["value"], 2601 if "per_ha" in path else 2, path)
     options = site(options=[("a", [belt(0, 135, coppice())]), ("b", reserves()["forest"])])
@@ -911,7 +911,7 @@ def test_find_whole():
 
 
 def test_find_nothing():
-    """Where nothing passes: found false, no value, the nearest, status 0; and the page says so"""
+    """If nothing passes: found false, no value, the nearest, status 0; and the page says so"""
     found = find(reserves(), RESERVES, 10, 300, "adc")
     expect_equal({k: found[k] for k in ("found", "value", "side", "goal_at_value", "nearest")},
                  {"found": False, "value": None, "side": None, "goal_at_value": None, "nearest": 300})
@@ -922,7 +922,7 @@ def test_find_nothing():
 
 
 def test_find_everything():
-    """Where the whole range passes: the value is its lower end, the side smallest"""
+    """If the whole range passes: the value is its lower end, the side smallest"""
     for lo, hi, goal in ((400, 900, "adc"), (400, 400, "adc"), (1, 5, "adc=1e6"), (900, 1000, "free-run"), (1, 900, "exceed=1")):
         found = find(reserves(), RESERVES, lo, hi, goal)
         expect_equal((found["found"], found["value"], found["side"], found["monotone"]), (True, lo, "smallest", True), goal)
@@ -932,7 +932,7 @@ def test_find_everything():
 
 
 def test_find_largest():
-    """Where only low values pass: the largest of them"""
+    """If only low values pass: the largest of them"""
     mapping = reserves(900, rocks=500)
     found = find(mapping, "forest[0].from_m", 0, 120, "exceed=0.3")
     expect_equal((found["found"], found["side"]), (True, "largest"))
@@ -941,7 +941,7 @@ def test_find_largest():
 
 
 def test_find_formats():
-    """--find as a page, as CSV and as JSON tells the same; several scenes one after the other; to a file; -j"""
+    """--find has equal results as a page, as CSV and as JSON; several scenes in sequence; to a file; -j"""
     with Folder() as f:
         a, b = f.write("a.yaml", reserves()), f.write("b.yaml", reserves(rock={"shape": "sphere", "diameter_m": 0.8}))
         arguments = ["--find", f"{RESERVES}=1:5000", "--goal", "adc", a, b]
@@ -968,7 +968,7 @@ def test_find_formats():
 
 
 def refused(mapping, arguments, *words):
-    """Status 2, nothing on standard output, a line that says what."""
+    """Expect status 2, nothing on standard output, and this message."""
     with Folder() as f:
         done = ceduo("--find", *arguments, f.write("s.yaml", mapping))
     expect(done.status == USAGE and done.out == "" and done.err.count("\n") in (1, 2, 3, 4), arguments, done)
@@ -978,7 +978,7 @@ def refused(mapping, arguments, *words):
 
 
 def test_find_options():
-    """--find on several options without --option, with two, or with one that is not there: status 2"""
+    """--find on several options without --option, with two, or with an unknown one: status 2"""
     mapping = site(options=[("a", reserves()["forest"]), ("b", reserves(100)["forest"])])
     path = "options[b].forest[0].stand.trees[0].per_ha"
     refused(mapping, [f"{path}=1:5000", "--goal", "adc"], "several options", "--option")
@@ -988,7 +988,7 @@ def test_find_options():
 
 
 def test_find_refused():
-    """--find with a wrong path, range or goal: status 2 and a clear line"""
+    """--find with a wrong path, range or goal: status 2 and a clear message"""
     mapping = reserves()
     refused(mapping, ["nope=0:5", "--goal", "adc"], "'nope'", "unknown key")
     refused(mapping, ["forest[7].stand.trees[0].per_ha=1:5", "--goal", "adc"], "'7'", "no such item")
@@ -1017,13 +1017,13 @@ def test_find_text():
 
 
 def test_find_says_find():
-    """An error in the values of --find names --find as its place, not --set"""
+    """An error in the values of --find has --find as its place, not --set"""
     done = refused(reserves(), ["nope=0:5", "--goal", "adc"])
     expect(not done.err.startswith("--set"), done.err)
 
 
 def test_find_example():
-    """The range that --find gives as its example is one that it takes"""
+    """The example range of --find is valid"""
     example = re.search(r"as '([^']+)'", ceduo("--find", "x", "--goal", "adc", "paper-site").err).group(1)
     good("--find", example, "--goal", "adc", "paper-site")
 
@@ -1032,7 +1032,7 @@ def test_find_example():
 
 
 def test_interrupt():
-    """SIGINT while years are flown or a value is looked for: ends by that signal, nothing printed"""
+    """SIGINT during years or a search: ends by that signal, nothing printed"""
     with Folder() as f:
         path = f.write("s.yaml", site(belt(0, 135, coppice()), rocks=1000000))
         for arguments in (["--years", "0:20"], ["--plot", "rotation"], ["--find", f"{RESERVES}=1:5000", "--goal", "exceed"]):

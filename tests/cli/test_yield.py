@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the options yield: volumes felled, standing and dead against sums by hand, for one preset of each system."""
+"""Yields of the options: volumes felled, standing and dead compared with sums by hand, for one preset of each system."""
 import csv
 import io
 import math
@@ -14,7 +14,7 @@ from harness import (USAGE, Folder, ceduo, expect, expect_equal, expect_in, expe
 from pages import WHOLE
 from test_years import belt, coppice, site  # noqa: E402
 
-SHOOTS = (0.16, 0.022, 14, 0.035)  # D, k, H, m of the four presets; assumed, as their files say
+SHOOTS = (0.16, 0.022, 14, 0.035)  # D, k, H, m of the four presets; assumed in their files
 TREES = (0.45, 0.014, 20, 0.03)
 SDI_MOST, SDI_TREES = 1000, 350
 
@@ -28,7 +28,7 @@ def size(curve, age):
 
 
 def volume(d, h):
-    """Hop hornbeam, Tabacchi et al. 2011 inside 5 to 35 cm and 5 to 30 m; outside as d2 h from the nearest of these."""
+    """Hop hornbeam, Tabacchi et al. 2011 inside 5 to 35 cm and 5 to 30 m; outside as d2 h from the nearest point."""
     cm = 100 * d
     near, high = min(max(cm, 5), 35), min(max(h, 5), 30)
     return (-1.4983 + 0.038828 * near**2 * high) / 1000 * cm**2 * h / (near**2 * high)
@@ -40,7 +40,7 @@ def density_index(stems):
 
 
 class System:
-    """Stools a hectare, years between two cuts, cohorts of shoots, shoots a stool in the end, trees that stay by age."""
+    """Stools per hectare, years between cuts, cohorts of shoots, final shoots per stool, retained trees by age."""
 
     def __init__(self, stools, rotation, cohorts, old, stay):
         self.stools, self.rotation, self.cohorts, self.old, self.stay = stools, rotation, cohorts, old, stay
@@ -49,12 +49,12 @@ class System:
         return self.old + (16 - self.old) * math.exp(-age / 5)
 
     def stems(self, since):
-        """Shoots and trees so many years after a cut: lists of (per hectare, dbh, height), shoots from the oldest on."""
+        """Return shoots and trees n years after a cut: lists of (per hectare, dbh, height), oldest shoots first."""
         ages = [i * self.rotation + since for i in range(self.cohorts)][::-1]
         shoots = [(self.stools * self.shoots_on_stool(a) / self.cohorts, *size(SHOOTS, a)) for a in ages if a > 0]
         trees = [(n, *size(TREES, (j + 1) * self.rotation + since)) for j, n in enumerate(self.stay) if n > 0]
         most = SDI_MOST * max(0, 1 - density_index(trees) / SDI_TREES)
-        if density_index(shoots) > most:  # the shoots are thinned to what the trees leave
+        if density_index(shoots) > most:  # the trees limit the shoots
             share = most / density_index(shoots)
             shoots = [(share * n, d, h) for n, d, h in shoots]
         return shoots, trees
@@ -66,11 +66,11 @@ class System:
         return self.standing(self.rotation) - self.standing(0)
 
     def grown_and_died(self):
-        """Between two cuts: what the stems that live on gain, and what those had that die, year by year."""
+        """Return the gain of surviving stems, and the volume of dying ones, year by year between two cuts."""
         grown = died = 0
         for t in range(self.rotation):
             (shoots, trees), (later, older) = self.stems(t), self.stems(t + 1)
-            if len(later) > len(shoots):  # the youngest come up
+            if len(later) > len(shoots):  # the youngest sprout
                 n, d, h = later[-1]
                 grown += n * volume(d, h)
             for (n, d, h), (m, e, g) in zip(shoots + trees, later[:len(shoots)] + older):
@@ -79,7 +79,7 @@ class System:
         return grown, died
 
 
-# Each with the sum that it comes to, m3 per hectare: just before a cut less just after it.
+# each with its total, m3 per hectare: just before a cut minus just after it
 PRESETS = {
     "simple-coppice": (System(2500, 25, 1, 3, [30, 30]), 116.26 - 11.37),
     "coppice-with-standards": (System(1500, 25, 1, 3, [100, 50, 20, 10]), 135.05 - 42.82),
@@ -94,7 +94,7 @@ def yield_of(mapping, *arguments):
 
 
 def test_presets_by_hand():
-    """One preset of each system: felled, standing and dead volume of a rotation are those of the sum by hand"""
+    """One preset of each system: felled, standing and dead volume of a rotation equal the sum by hand"""
     options = yield_of(site(options=[(name, [belt(0, 135, name, cut_year=1)]) for name in PRESETS]))
     for option in options:
         system, felled = PRESETS[option["name"]]
@@ -109,8 +109,8 @@ def test_presets_by_hand():
 
 
 def test_standards_are_no_gift():
-    """The yield rises to one best number of standards and falls beyond it: they take their growing space from the shoots, and stools
-    die in their shade; more than the ground bears have no yield, and the page says so"""
+    """The yield has a maximum over the number of standards: they take growing space, and stools die in their shade; too many
+    have no yield, and the page says so"""
     numbers = range(0, 336, 15)
     found = [o["yield"]["cut_m3_ha_per_year"] for o in yield_of(site(options=[
         (f"{n} standards", [belt(0, 135, {"base": "simple-coppice", "cutting": {"stay_per_ha": [n / 2, n / 2]}}, cut_year=1)])
@@ -131,7 +131,7 @@ def test_standards_are_no_gift():
 
 
 def test_balance():
-    """Over a rotation that repeats itself what is felled is what grew less what died, to rounding"""
+    """Over a repeating rotation felled volume is growth minus deaths, within rounding"""
     options = yield_of(site(options=[(name, [belt(0, 135, name)]) for name in PRESETS]))
     for option in options:
         system, _ = PRESETS[option["name"]]
@@ -142,7 +142,7 @@ def test_balance():
 
 
 def test_first_cut():
-    """The first cut fells the inventory as it is then, later ones a whole rotation's growth"""
+    """The first cut fells the existing stand, later ones a whole rotation's growth"""
     found = yield_of(site(belt(0, 135, coppice(growth={**coppice()["growth"], "sdi_most": 0}), cut_year=0)))[0]["yield"]["cuts"]
     before = 7500 * volume(0.05, 6) + 60 * volume(0.2, 12)
     after = sum(30 * volume(*size(TREES, age)) for age in (25, 50))
@@ -152,7 +152,7 @@ def test_first_cut():
 
 
 def test_staggered_is_single():
-    """Felled at once or in sections some years apart, a forest yields the same"""
+    """Felled at once or in sections years apart, a forest has the same yield"""
     once, staggered = yield_of(site(options=[
         ("once", [belt(0, 120, coppice(), cut_year=5)]),
         ("staggered", [belt(0, 40, coppice(), cut_year=5), belt(40, 80, coppice(), cut_year=13), belt(80, 120, coppice(), cut_year=21)])]))
@@ -162,7 +162,7 @@ def test_staggered_is_single():
 
 
 def test_length_weights():
-    """Belts count by their length, gaps and belts without stems not at all"""
+    """Belts are weighted by length; gaps and belts without stems do not count"""
     poor = coppice(stools={"per_ha": 1000, "spacing_m": 0.35}, shoots=[{"per_ha": 3000, "dbh_m": 0.05, "height_m": 6}])
     rich, mixed, other = yield_of(site(options=[
         ("rich", [belt(0, 135, coppice())]), ("mixed", [belt(0, 30, coppice()), belt(40, 130, poor), belt(130, 135, "bare")]),
@@ -172,7 +172,7 @@ def test_length_weights():
 
 
 def test_unknown():
-    """Without growth or cutting, and without a forest, the yield is null, never 0"""
+    """Without growth or cutting, or without a forest, the yield is null, never 0"""
     options = yield_of(site(options=[
         ("no growth", [belt(0, 135, coppice(growth=None))]), ("no cut", [belt(0, 135, coppice(cutting=None))]),
         ("nothing", []), ("one of two", [belt(0, 50, coppice()), belt(50, 135, coppice(growth=None))])]))
@@ -180,7 +180,7 @@ def test_unknown():
 
 
 def test_csv():
-    """CSV: the yield stands in each row, empty where it is not known"""
+    """CSV: each row has the yield, empty if unknown"""
     with Folder() as f:
         path = f.write("s.yaml", site(options=[("coppice", [belt(0, 135, coppice())]), ("still", [belt(0, 135, coppice(growth=None))])]))
         rows = list(csv.DictReader(io.StringIO(good("--batch", "-n", 2, "-f", "csv", path).out)))
@@ -191,7 +191,7 @@ def test_csv():
 
 
 def test_page():
-    """Page: side by side each option says what it yields a year and what stands, '-' where that is not known"""
+    """Page: each option has its yield per year and its standing volume, '-' if unknown"""
     with Folder() as f:
         path = f.write("s.yaml", site(options=[("coppice", [belt(0, 135, coppice())]), ("still", [belt(0, 135, coppice(growth=None))])]))
         text = good(*WHOLE, "-n", 100, path).out
@@ -204,7 +204,7 @@ def test_page():
 
 
 def test_tradeoff():
-    """--plot tradeoff: a point for each option, brackets round those that another beats in both"""
+    """--plot tradeoff: a point per option, brackets around those that another beats in both"""
     text = good("--plot", "tradeoff", "-n", 1000, "--size", "100x24", "rotation").out
     for name in ("(1) simple coppice", "(2) coppice with standards", "3 selection coppice", "4 large reserves"):
         expect_in(name, text)
@@ -224,7 +224,7 @@ def find(path, goal, value, *arguments):
 
 
 def test_find_rotation():
-    """--find: the length of the rotation and the standards that stay are sought over the years ahead, with their yield"""
+    """--find: the rotation and the retained standards are searched over the coming years, with their yield"""
     base = "options[0].forest[0].stand.cutting"
     found = find(f"{base}.rotation_years", "exceed=0.7", "10:40")
     expect_equal((found["found"], found["over"], found["side"]), (True, "rotation", "smallest"))
@@ -247,7 +247,7 @@ def test_find_rotation():
 
 
 def test_find_today():
-    """--find: other parameters are sought today, with --years over the years ahead"""
+    """--find: other parameters are searched today, with --years over the coming years"""
     stools = "options[0].forest[0].stand.stools.per_ha"
     today, years = (find(stools, "exceed=0.3", "1000:5000", *more) for more in ((), ("--years",)))
     expect_equal((today["over"], years["over"]), ("today", "rotation"))

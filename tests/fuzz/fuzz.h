@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A harness is one input of any bytes. libFuzzer calls it, or replay.c does. Run from the top of the sources: the shipped
- * profiles are looked for there. */
+/* A harness takes one input of any bytes, from libFuzzer or replay.c. Run it from the top of the sources, which has the
+ * profiles. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A CSV profile: what is read rises, and is refused with a word. A CSV survey: what is read makes a stand that is read. */
+/* Fuzz CSV files: a profile that is read has increasing x, and a refused one has a message. A survey that is read makes a valid
+ * stand. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +12,7 @@
 #include "io/csv.h"
 #include "io/survey_file.h"
 
-/* The stand of a survey is one that a scene takes. */
+/* Check that a scene can use the stand of a survey. */
 static void check_stand(struct arena *arena, const struct survey_file *survey, struct problems *problems)
 {
     struct text yaml = {0};

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A script of keys for the terminal program, played in a folder of its own. No '/' is passed on: nothing outside of that
- * folder can be written. */
+/* Play a script of keys to the terminal program in its own folder. '/' is not passed on, so that no script writes outside. */
 #include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +10,7 @@
 #include "fuzz.h"
 #include "tui/program.h"
 
-/* A rock flies over the control, hits stems or the ground and stays there: flying them takes little of the time. */
+/* A rock flies over the control, hits stems or the ground and stops: simulating it takes little time. */
 static const char scene[] =
     "ceduo: scene/1\ntitle: fuzz\nrock: {diameter_m: 0.5}\nrelease: {x_m: 1, height_m: 5, vx_m_s: 4}\n"
     "slope: {vertices_m: [[0, 64], [50, 30], [100, 0]],\n"
@@ -43,14 +42,14 @@ static void remove_folder(void)
     (void)nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
 }
 
-/* Made, in memory where there is such a place: writing to a disk takes most of the time. */
+/* Make the folder, in memory if possible: most of the time would go to disk writes. */
 static bool make_folder(const char *parent)
 {
     snprintf(folder, sizeof folder, "%s/ceduo-fuzz-XXXXXX", parent);
     return mkdtemp(folder) && chdir(folder) == 0;
 }
 
-/* The folder, once; what the scripts complain of goes nowhere. */
+/* Make the folder once; discard messages. */
 static void set_up(void)
 {
     static bool done;
@@ -78,7 +77,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (text[i] == '/')
             text[i] = 'j';
     for (char *p = text; (p = strstr(p, "wait")) || (p = strstr(text, "dump -")) || (p = strstr(text, "roles -"));)
-        *p = '#'; /* a hundred thousand rocks take too long, and standard output is not ours */
+        *p = '#'; /* 100 000 rocks take too long, and standard output must stay clean */
     int fd = memfd_create("fuzz", MFD_CLOEXEC);
     if (fd < 0 || write(fd, text, size) != (ssize_t)size)
         abort();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scene's text. What passes the checks can be started, and written out and read again it is the same scene. */
+/* Fuzz the text of a scene. A valid scene can be started; written and read again it is the same scene. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "fuzz.h"
 #include "io/scene_file.h"
 
-#define NAME "profiles/scenes/fuzz.yaml" /* no such file; references are looked for beside it */
+#define NAME "profiles/scenes/fuzz.yaml" /* no such file; references are relative to it */
 
 static void fail(const char *what, const char *text)
 {
@@ -16,7 +16,7 @@ static void fail(const char *what, const char *text)
     abort();
 }
 
-/* The same tree comes back from its text. */
+/* Check that the emitted text gives the same tree. */
 static void check_emitted(struct scene_file *file)
 {
     const struct node *plain = ceduo_emit_restore_references(&file->arena, file->root);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Changes by --set, a line each, to a shipped scene: two with files below, one with options. */
+/* Fuzz changes by --set, one per line, on shipped scenes: two with included files, one with options. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A CSV table that a scene names: values that were seen, whole or of some rows, and draws of a calibration. What is read is
- * finite and in order, and is refused with a word. */
+/* Fuzz a CSV table that a scene refers to: observed values, all rows or some, and draws of a calibration. Values that are read
+ * are finite and in order; a refused table has a message. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,7 +31,7 @@ static void fail(const char *what, const char *text)
     abort();
 }
 
-/* Rising, as the comparison with simulated rocks takes them. */
+/* Check that values are ascending, as the comparison with simulated rocks requires. */
 static void check_observed(const struct scene_file *file, const char *use)
 {
     if (strncmp(use, "observed", 8) == 0 && file->observations_count == 0)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A harness without libFuzzer: every seed, and so many changes of them, always the same. Prints TAP.
- *   replay NAME CHANGES FILE… */
+/* Run a harness without libFuzzer on every seed and n random changes of each, always the same. Prints TAP. replay NAME CHANGES
+ * FILE… */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 #include "fuzz.h"
 
-#define ROOM 65536
+#define CAPACITY 65536
 
 struct seed {
     uint8_t *bytes;
@@ -27,28 +27,28 @@ static size_t draw(size_t below)
 
 static struct seed read_seed(const char *path)
 {
-    struct seed seed = {malloc(ROOM), 0};
+    struct seed seed = {malloc(CAPACITY), 0};
     FILE *f = fopen(path, "rb");
     if (!seed.bytes || !f) {
         printf("Bail out! %s cannot be read\n", path);
         exit(1);
     }
-    seed.n = fread(seed.bytes, 1, ROOM, f);
+    seed.n = fread(seed.bytes, 1, CAPACITY, f);
     fclose(f);
     return seed;
 }
 
-/* n bytes at `at` replaced by others. */
+/* Replace n bytes at `at` by m others. */
 static void splice(struct seed *s, size_t at, size_t n, const void *bytes, size_t m)
 {
-    if (s->n - n + m > ROOM)
+    if (s->n - n + m > CAPACITY)
         return;
     memmove(s->bytes + at + m, s->bytes + at + n, s->n - at - n);
     memcpy(s->bytes + at, bytes, m);
     s->n += m - n;
 }
 
-static void change(struct seed *s, const struct seed *other)
+static void change(struct seed *s, const struct seed *second)
 {
     static const char *const words =
         "\n\0 \0:\0: \0- \0[\0]\0{\0}\0,\0=\0\"\0'\0#\0&a \0*a\0!\0|\n\0\t\0\xff\0\xc3\0\xe2\x80\xa6\0"
@@ -58,10 +58,10 @@ static void change(struct seed *s, const struct seed *other)
         "1e-320\0nan\0---\n\0? \0\r\n\0\x1b[2J\0[0]\0[a]\0.\0base: \0mean: \0source: \0"
         "999999999\0"
         "0.5\0\x01\0key \0type \0Enter \0Esc \0";
-    size_t at = draw(s->n + 1), left = s->n - at;
+    size_t at = draw(s->n + 1), rest = s->n - at;
     switch (draw(6)) {
     case 0:
-        if (left > 0)
+        if (rest > 0)
             s->bytes[at] = (uint8_t)draw(256);
         break;
     case 1: {
@@ -73,13 +73,13 @@ static void change(struct seed *s, const struct seed *other)
     }
     case 2: {
         size_t n = draw(2) ? 1 : draw(60);
-        splice(s, at, n < left ? n : left, "", 0);
+        splice(s, at, n < rest ? n : rest, "", 0);
         break;
     }
     case 3: {
         uint8_t copy[100];
         size_t n = draw(sizeof copy);
-        n = n < left ? n : left;
+        n = n < rest ? n : rest;
         memcpy(copy, s->bytes + at, n);
         splice(s, draw(s->n + 1), 0, copy, n);
         break;
@@ -89,13 +89,13 @@ static void change(struct seed *s, const struct seed *other)
         for (size_t n = draw(45); n > 0; n--)
             word += strlen(word) + 1;
         size_t n = draw(12);
-        splice(s, at, n < left ? n : left, word, strlen(word));
+        splice(s, at, n < rest ? n : rest, word, strlen(word));
         break;
     }
     default:
-        if (other->n > 0) {
-            size_t from = draw(other->n), n = draw(200);
-            splice(s, at, 0, other->bytes + from, n < other->n - from ? n : other->n - from);
+        if (second->n > 0) {
+            size_t from = draw(second->n), n = draw(200);
+            splice(s, at, 0, second->bytes + from, n < second->n - from ? n : second->n - from);
         }
         break;
     }
@@ -106,7 +106,7 @@ int main(int argc, char **argv)
     if (argc < 4)
         return 2;
     size_t n = (size_t)argc - 3, changes = strtoul(argv[2], NULL, 10);
-    struct seed *seeds = calloc(n, sizeof *seeds), one = {malloc(ROOM), 0};
+    struct seed *seeds = calloc(n, sizeof *seeds), one = {malloc(CAPACITY), 0};
     if (!seeds || !one.bytes)
         return 1;
     for (size_t i = 0; i < n; i++)

@@ -11,16 +11,16 @@
 
 #include "full.h"
 
-/* ---- ways of calls ---- */
+/* ---- call paths ---- */
 
-#define WAYS_MAX   ((unsigned long)1 << 20) /* of calls, noted in a task */
+#define WAYS_MAX   ((unsigned long)1 << 20) /* calls recorded per task */
 #define WAY_FRAMES 16
 
 static bool noting;
 static uint64_t ways[WAYS_MAX];
 
-/* By which functions a call came here. */
-static uint64_t way_of_calls(void)
+/* Return a hash of the functions on the call stack. */
+static uint64_t hash_call_path(void)
 {
     void *frames[WAY_FRAMES];
     uint64_t way = 0xcbf29ce484222325u;
@@ -30,8 +30,8 @@ static uint64_t way_of_calls(void)
     return way;
 }
 
-/* How many of calls first…end - 1 came the same way as a call, two at most. */
-static int alike(unsigned long call, unsigned long first, unsigned long end)
+/* Count the calls first…end - 1 with the same path as `call`, at most 2. */
+static int count_same_paths(unsigned long call, unsigned long first, unsigned long end)
 {
     int n = 0;
     for (unsigned long i = first; i < end && n < 2; i++)
@@ -44,14 +44,14 @@ static int alike(unsigned long call, unsigned long first, unsigned long end)
 static atomic_ulong calls;
 static atomic_long live;
 static atomic_ulong fail_at; /* 0: none */
-static atomic_bool fail_on;  /* all that follow as well */
+static atomic_bool fail_on;  /* fail all later calls, too */
 atomic_long grow_at;
 
 bool fails(void)
 {
     unsigned long n = atomic_fetch_add(&calls, 1) + 1;
     if (noting && n < WAYS_MAX)
-        ways[n] = way_of_calls();
+        ways[n] = hash_call_path();
     if (fail_at == 0 || !(fail_on ? n >= fail_at : n == fail_at))
         return false;
     errno = ENOMEM;
@@ -126,7 +126,7 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, v
     return fails() ? EAGAIN : __real_pthread_create(thread, attributes, start, argument);
 }
 
-/* ---- a task and what it found ---- */
+/* ---- a task and its result ---- */
 
 static uint64_t found;
 
@@ -148,7 +148,7 @@ bool is_done(enum ceduo_status status)
     return status == CEDUO_OK;
 }
 
-/* ---- one thread of several ---- */
+/* ---- failure in one of several threads ---- */
 
 #define PATIENCE 10000 /* ms */
 
@@ -157,7 +157,7 @@ static void sleep_ms(long ms)
     nanosleep(&(struct timespec){0, ms * 1000000}, NULL);
 }
 
-/* Waits until other threads have asked for memory n times. */
+/* Wait until other threads have allocated n times. */
 static void wait_for_others(unsigned long n)
 {
     const unsigned long enough = calls + n;
@@ -218,7 +218,7 @@ void without_memory(task *todo)
     assert_true(begin(todo, 0, false));
     const uint64_t wanted = found, all = calls;
     assert_true(all < WAYS_MAX);
-    way_of_calls(); /* the first time it takes memory itself */
+    hash_call_path(); /* its first use allocates memory */
     noting = true;
     assert_true(begin(todo, 0, false));
     noting = false;
@@ -226,7 +226,8 @@ void without_memory(task *todo)
     unsigned long failed = 0, tried = 0;
     bool each = FULL_OR(all < FEW, false);
     for (unsigned long at = 1; at <= all; at++)
-        for (int on = 0; on < 2 && (each || alike(at, 1, at) < 2 || alike(at, at + 1, all + 1) == 0); on++) {
+        for (int on = 0; on < 2 && (each || count_same_paths(at, 1, at) < 2 || count_same_paths(at, at + 1, all + 1) == 0);
+             on++) {
             bool done = begin(todo, at, on);
             failed += !done;
             tried++;

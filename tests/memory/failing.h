@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Memory that fails: allocations of a task once each, and from each on all. Of those that one way of calls makes many times it
- * is the first two and the last; with FULL=1 each, where they are few: one fit makes 63 000. The task then says so, frees what
- * it had, and where the library promises that one can go on gives the result that it gives with memory; or it gets along
- * without and gives that at once. The linker puts what stands here in the place of the C library's calls (--wrap). */
+/* Failing memory: run a task with each of its allocations failing once, then with all later ones failing, too. If one call path
+ * allocates many times, only its first two and its last allocation fail; with FULL=1 each, unless there are many (a fit makes
+ * 63 000). The task then reports the failure and frees its memory. If the library promises that it can continue, the result is
+ * the same as with memory. A task may also manage without that memory and give its result at once. The linker redirects the C
+ * library's calls to these functions (--wrap). */
 #ifndef FAILING_H
 #define FAILING_H
 
@@ -13,41 +14,41 @@
 
 #include "ceduo/ceduo.h"
 
-/* Does all, and adds what it found; false where there was no memory. */
+/* Perform the work and add its results; false if memory failed. */
 typedef bool task(void);
 
-/* Runs a task with each failure. */
+/* Run a task with each failure. */
 void without_memory(task *todo);
 
-/* Runs a task with one: that of call `at` (0: none), or also of all that follow. */
+/* Run a task with the failure of call `at` (0: none), and of all later calls if `on`. */
 bool begin(task *todo, unsigned long at, bool on);
 
-/* Adds bytes to what the task found. */
+/* Append bytes to the results of the task. */
 void add(const void *bytes, size_t n);
 
-/* True if a call that takes memory fails now. */
+/* True if the current allocation fails. */
 bool fails(void);
 
-extern atomic_long grow_at; /* the call of realloc that fails, counted down; 0: none */
+extern atomic_long grow_at; /* index of the failing call of realloc, counted down; 0: none */
 
-/* From here on there is memory again: the task was told that there was none, and goes on. */
+/* Stop failing: the task has reported the failure and continues. */
 void relieve(void);
 
-/* Done, or without memory: nothing else goes wrong. */
+/* True if done, false if memory failed; any other status fails the test. */
 bool is_done(enum ceduo_status status);
 
-/* The others find no memory for once, and have had time to say so. */
+/* Let all other threads fail once, and wait until they have reported it. */
 void fail_others(void);
 void others_go_on(void);
 
-/* What was told of a task on several threads; when it is told so often something happens meanwhile (NULL: nothing). */
+/* Progress calls of a task on several threads; `meanwhile` is called at call number `at` (may be NULL). */
 extern struct told {
     void (*meanwhile)(void);
     int at;
     atomic_int inside, most_inside, times;
 } told;
 
-/* `counts`: this is one of those that are counted. */
+/* `counts`: count this call. */
 void note_told(bool counts);
 void begin_to_tell(void (*meanwhile)(void), int at);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Runs and what stands on them without memory. */
+/* Runs and results built on them, without memory. */
 #include "local.h"
 #include "memory/failing.h"
 
@@ -24,7 +24,7 @@ static void init(enum ceduo_contact_model model, enum ceduo_law law)
     site.scene.simulation.contact_model = model;
     site.scene.simulation.law = law;
     site.scene.simulation.rocks = 1500;
-    site.scene.release.x.mean = 118; /* ways are short: each is flown some thousand times */
+    site.scene.release.x.mean = 118; /* short trajectories: each is simulated some thousand times */
     site.scene.release.vx.mean = 14;
     site.scene.release.vz.mean = -5;
     site.control.accepted = 50e3;
@@ -32,7 +32,7 @@ static void init(enum ceduo_contact_model model, enum ceduo_law law)
     site.plots[1].trees.group_radius = 3;
 }
 
-/* The status at last, which is CEDUO_OK: a call that fails changes nothing and can be made again. */
+/* Retry until success; return CEDUO_OK. A failed call has no effect and can be repeated. */
 static enum ceduo_status extend(struct ceduo_run *run, uint64_t rocks)
 {
     uint64_t before = ceduo_run_rocks(run);
@@ -45,7 +45,7 @@ static enum ceduo_status extend(struct ceduo_run *run, uint64_t rocks)
     return ceduo_run_extend(run, rocks);
 }
 
-/* What a run says of control 0, and where its rocks stopped. */
+/* Add the results of control 0 and the stops of the rocks. */
 static bool add_run(const struct ceduo_run *run)
 {
     struct ceduo_arrivals a;
@@ -63,7 +63,7 @@ static bool add_run(const struct ceduo_run *run)
     return true;
 }
 
-static bool fly(struct ceduo_run_def def)
+static bool simulate(struct ceduo_run_def def)
 {
     struct ceduo_run *run;
     if (!is_done(ceduo_run_create(&def, &run))) {
@@ -79,7 +79,7 @@ static bool fly(struct ceduo_run_def def)
     return good;
 }
 
-static struct ceduo_run_def def_of(bool wood)
+static struct ceduo_run_def make_def(bool wood)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.option = wood ? &site.option : NULL;
@@ -87,22 +87,22 @@ static struct ceduo_run_def def_of(bool wood)
     return def;
 }
 
-static bool fly_bare(void)
+static bool simulate_bare(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    return fly(def_of(false));
+    return simulate(make_def(false));
 }
 
-static bool fly_scalar_wood(void)
+static bool simulate_scalar_forest(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_CRSP);
     site.plots[0].shoots.dbh_sd = 0.02;
-    return fly(def_of(true));
+    return simulate(make_def(true));
 }
 
-/* A profile of so many vertices that its segments are put into blocks. */
+/* A profile with enough vertices to group its segments into blocks. */
 enum { VERTICES_MAX = 2600 };
-static bool fly_profile(size_t vertices)
+static bool simulate_profile(size_t vertices)
 {
     static double x[VERTICES_MAX], z[VERTICES_MAX];
     static struct ceduo_segment segments[VERTICES_MAX - 1];
@@ -118,7 +118,7 @@ static bool fly_profile(size_t vertices)
     site.scene.simulation.rocks = 50;
     site.scene.release.x.mean = 20;
     site.scene.release.vx.mean = 3;
-    struct ceduo_run_def def = def_of(false);
+    struct ceduo_run_def def = make_def(false);
     struct ceduo_run *run;
     if (ceduo_run_create(&def, &run) != CEDUO_OK)
         return false;
@@ -130,21 +130,21 @@ static bool fly_profile(size_t vertices)
     return true;
 }
 
-static bool fly_long(void)
+static bool simulate_long_profile(void)
 {
-    return fly_profile(40);
+    return simulate_profile(40);
 }
 
-/* Its vertices are less than a rock's radius apart, so that blocks of them are rolled over. */
-static bool fly_fine(void)
+/* Its vertices are closer than a rock's radius, so that rocks roll over whole blocks. */
+static bool simulate_fine_profile(void)
 {
-    return fly_profile(VERTICES_MAX);
+    return simulate_profile(VERTICES_MAX);
 }
 
-/* ---- what stands on runs ---- */
+/* ---- results built on runs ---- */
 
-/* Now the second option is clearly worse, and by the other energy law clearly better. */
-static void turn(struct ceduo_result *r)
+/* Make the second option clearly worse, and clearly better under the other energy law. */
+static void reverse_order(struct ceduo_result *r)
 {
     const struct ceduo_estimate worse = {0.5, 0.1, NAN, NAN}, better = {-0.5, 0.1, NAN, NAN};
     r->options[1].differences[0].exceed = worse;
@@ -153,8 +153,8 @@ static void turn(struct ceduo_result *r)
     r->options[1].others[0].to_first.exceed = better;
 }
 
-/* Two options, of which one is cut in the second of the years, and blocks of other sizes. */
-static bool question(void)
+/* Two options, one cut in the second of the years, and blocks of several sizes. */
+static bool answer_options(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_option options[2] = {site.option, {.name = NULL}};
@@ -168,7 +168,7 @@ static bool question(void)
     struct ceduo_request q = ceduo_request_default(&site.scene);
     LOCAL(ceduo_pool, pool) = NULL;
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
-    q.run = def_of(false);
+    q.run = make_def(false);
     q.rocks = 30;
     q.tolerance = 1;
     q.years = true;
@@ -177,7 +177,7 @@ static bool question(void)
     enum ceduo_status status = ceduo_simulate_request(&q, &pool, &answer);
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict = {0};
     if (status == CEDUO_OK)
-        turn(answer.result);
+        reverse_order(answer.result);
     if (status == CEDUO_OK)
         status = ceduo_compare_options(answer.result, answer.years, NULL, &verdict);
     if (status == CEDUO_OK) {
@@ -195,15 +195,15 @@ static bool question(void)
     return is_done(status);
 }
 
-/* Years flown once and once more, with the weights of blocks. */
-static bool years_of_blocks(void)
+/* Years simulated twice, with the weights of blocks. */
+static bool answer_block_years(void)
 {
     static double volumes[] = {0.05, 1};
     struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     site.scene.blocks = &blocks;
     site.scene.blocks_count = 1;
-    struct ceduo_run_def def = def_of(false);
+    struct ceduo_run_def def = make_def(false);
     LOCAL(ceduo_pool, pool) = NULL;
     LOCAL(ceduo_years, years) = NULL;
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = {0};
@@ -225,8 +225,8 @@ static bool years_of_blocks(void)
     return is_done(status);
 }
 
-/* The question of 30 rocks, answered. */
-static bool ask(struct ceduo_request q)
+/* Answer a request for 30 rocks. */
+static bool answer_request(struct ceduo_request q)
 {
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     q.rocks = 30;
@@ -241,8 +241,8 @@ static bool ask(struct ceduo_request q)
     return status == CEDUO_OK;
 }
 
-/* Each year with rocks of its own. */
-static bool ask_years_apart(void)
+/* Each year with independent rocks. */
+static bool answer_independent_years(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_request q = ceduo_request_default(&site.scene);
@@ -250,19 +250,19 @@ static bool ask_years_apart(void)
     q.window = (struct ceduo_window){.last = 2, .step = 1};
     q.years_independent = true;
     q.year_rocks = 20;
-    return ask(q);
+    return answer_request(q);
 }
 
 /* Under both energy laws. */
-static bool ask_both_laws(void)
+static bool answer_both_laws(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_control controls[2] = {site.control, site.control}; /* at one place */
+    struct ceduo_control controls[2] = {site.control, site.control}; /* both at one place */
     site.scene.controls = controls;
     site.scene.controls_count = 2;
     struct ceduo_request q = ceduo_request_default(&site.scene);
     q.run.other_energy = true;
-    return ask(q);
+    return answer_request(q);
 }
 
 static const char *const density = "rock.density_kg_m3", *const speed = "release.vx_m_s";
@@ -270,7 +270,7 @@ static const struct ceduo_input inputs[2] = {
     {"rock.density_kg_m3", CEDUO_INPUT_RANGE, 2400, 2750, .places_count = 1, .places = &density},
     {"release.vx_m_s", CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed}};
 
-/* What is not known of the site, asked of so many points and rocks. */
+/* Uncertain inputs of the site, with n points and rocks. */
 static struct ceduo_uncertainty_def uncertainty_def(size_t points, uint64_t rocks)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
@@ -334,24 +334,24 @@ static enum ceduo_status uncertainty_on_two_threads(uint64_t rocks, void (*meanw
     return ask_uncertainty(def);
 }
 
-/* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end
- * before it looks up again. */
-TEST(one_is_told_at_a_time)
+/* The progress callback blocks no other thread and is not called twice at a time. Enough rocks that other threads are still
+ * running at its next call. */
+TEST(progress_calls_never_overlap)
 {
     assert_int_equal(uncertainty_on_two_threads(1000, others_go_on), CEDUO_OK);
     assert_int_equal(told.most_inside, 1);
     assert_true(told.times > 1);
 }
 
-/* Where one thread has no memory the other ends, too: of 404 evaluations few are made then. */
-TEST(one_thread_ends_all)
+/* A thread without memory stops the others: only a few of 404 evaluations are made. */
+TEST(one_failure_stops_all_threads)
 {
     assert_int_equal(uncertainty_on_two_threads(8, fail_others), CEDUO_NO_MEMORY);
     assert_true(told.times < 100);
 }
 
-/* What is uncertain has to be in the scene. */
-TEST(a_place_that_is_not_there)
+/* An uncertain input must exist in the scene. */
+TEST(a_missing_place)
 {
     static const char *const colour = "rock.colour";
     const struct ceduo_input input = {"rock.colour", CEDUO_INPUT_RANGE, 0, 1, .places_count = 1, .places = &colour};
@@ -361,8 +361,8 @@ TEST(a_place_that_is_not_there)
     assert_int_equal(ask_uncertainty(def), CEDUO_BAD_PLACE);
 }
 
-/* Points enough for all terms, but not for all products, so that inputs are ranked; and what the terms tell little of, so that
- * fewer are tried. One input is of the rows of a calibration. */
+/* Enough points for all terms, but not for all products, so that inputs are ranked. The terms explain little, so that fewer are
+ * tried. One input consists of calibration rows. */
 static bool fit_surface(void)
 {
     enum { INPUTS = 9, POINTS = 128, ROWS = 200, FIGURES = 2 };
@@ -394,7 +394,7 @@ static bool fit_surface(void)
     return is_done(status);
 }
 
-/* A copy of a scene with more belts than the arena gives room for at once, whose shoots are uncertain. */
+/* Copy a scene with uncertain shoots and with more belts than fit the arena's first page. */
 static bool copy_belts(void)
 {
     enum { MANY = 300 };
@@ -415,21 +415,21 @@ static bool copy_belts(void)
     return is_done(status);
 }
 
-static bool ask_by_index(void)
+static bool answer_by_index(void)
 {
     init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
-    return ask(ceduo_request_default(&site.scene));
+    return answer_request(ceduo_request_default(&site.scene));
 }
 
-static bool ask_of_one_option(void)
+static bool answer_one_option(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_request q = ceduo_request_default(&site.scene);
     q.only = 0;
-    return ask(q);
+    return answer_request(q);
 }
 
-/* What was read before. */
+/* Assess the scene that was read. */
 static bool assess(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
@@ -449,7 +449,7 @@ static bool assess(void)
     return status == CEDUO_OK;
 }
 
-/* What was read before, by the index: nothing flew among stems. */
+/* Assess it by the index alone, without rocks among stems. */
 static bool assess_index(void)
 {
     init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
@@ -464,7 +464,7 @@ static bool assess_index(void)
     return status == CEDUO_OK;
 }
 
-/* A rock that rolls among stools of one shoot to stools of many: more room for these is wanted as it rolls. */
+/* A rock rolls from stools of one shoot to stools of many, so that the buffer of shoots grows during the roll. */
 static void make_roll(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
@@ -479,7 +479,7 @@ static void make_roll(void)
         stand->stools_per_ha = 300;
         stand->shoots[0].per_ha = i == 0 ? 300 : 300 * 200;
         stand->trees_count = 0;
-        stand->u = 1e-3; /* they hardly take anything */
+        stand->u = 1e-3; /* they take hardly any energy */
     }
 }
 
@@ -503,7 +503,7 @@ static bool follow_roll(void)
     return done;
 }
 
-/* The same, and all blows are kept. */
+/* The same roll, recording all impacts. */
 static bool record_roll(void)
 {
     make_roll();
@@ -539,35 +539,35 @@ static bool follow(void)
     return good;
 }
 
-/* What is to be seen of the runs of a pool, which stays as it is. */
-static struct ceduo_pool *seen;
+/* A pool, and the views of its runs; neither changes it. */
+static struct ceduo_pool *viewed;
 
 static bool see(void)
 {
-    const struct ceduo_snapshot_def def = {.scene = &site.scene, .runs = seen, .envelope_rocks = 20, .trajectories = 3};
+    const struct ceduo_snapshot_def def = {.scene = &site.scene, .runs = viewed, .envelope_rocks = 20, .trajectories = 3};
     LOCAL(ceduo_snapshot, o);
     if (!is_done(ceduo_snapshot_create(&def, &o))) {
         assert_null(o);
         return false;
     }
-    const struct ceduo_run_snapshot *sight = ceduo_snapshot_find(o, &site.scene, 0);
-    add(sight->energies[0].values, sight->energies[0].n * sizeof(double));
-    add(sight->envelopes, o->cells * sizeof *sight->envelopes);
-    for (size_t i = 0; i < sight->trajectories_count; i++)
-        add(sight->trajectories[i].x, sight->trajectories[i].n * sizeof(double));
+    const struct ceduo_run_snapshot *view = ceduo_snapshot_find(o, &site.scene, 0);
+    add(view->energies[0].values, view->energies[0].n * sizeof(double));
+    add(view->envelopes, o->cells * sizeof *view->envelopes);
+    for (size_t i = 0; i < view->trajectories_count; i++)
+        add(view->trajectories[i].x, view->trajectories[i].n * sizeof(double));
     return true;
 }
 
-TEST(what_is_to_be_seen_of_runs)
+TEST(views_of_runs)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.rocks_most = 40;
-    assert_int_equal(ceduo_pool_create(&def, &seen), CEDUO_OK);
-    assert_int_equal(ceduo_pool_fill(seen), CEDUO_OK);
-    assert_int_equal(ceduo_pool_extend(seen, 40), CEDUO_OK);
+    assert_int_equal(ceduo_pool_create(&def, &viewed), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(viewed), CEDUO_OK);
+    assert_int_equal(ceduo_pool_extend(viewed, 40), CEDUO_OK);
     without_memory(see);
-    ceduo_pool_free(seen);
+    ceduo_pool_free(viewed);
 }
 
 static enum ceduo_status falls(void *context, double value, double *goal)
@@ -590,16 +590,31 @@ static bool find(void)
 
 TEST(runs_go_on)
 {
-    task *const tasks[] = {fly_bare, fly_long, fly_fine, fly_scalar_wood};
+    task *const tasks[] = {simulate_bare, simulate_long_profile, simulate_fine_profile, simulate_scalar_forest};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }
 
-TEST(what_stands_on_runs)
+TEST(results_built_on_runs)
 {
-    task *const tasks[] = {question, years_of_blocks, ask_by_index,      ask_both_laws,   uncertainty, uncertainty_over_years,
-                           sure,     copy_belts,      ask_of_one_option, ask_years_apart, assess,      assess_index,
-                           follow,   follow_one,      follow_roll,       record_roll,     find,        fit_surface};
+    task *const tasks[] = {answer_options,
+                           answer_block_years,
+                           answer_by_index,
+                           answer_both_laws,
+                           uncertainty,
+                           uncertainty_over_years,
+                           sure,
+                           copy_belts,
+                           answer_one_option,
+                           answer_independent_years,
+                           assess,
+                           assess_index,
+                           follow,
+                           follow_one,
+                           follow_roll,
+                           record_roll,
+                           find,
+                           fit_surface};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }

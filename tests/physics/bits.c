@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints figures of a few runs to the last bit: bits THREADS. The same whatever the threads, the optimisation and the
- * compiler are. */
+/* Print figures of a few runs to the last bit: bits THREADS. They are the same for any threads, optimisation and compiler. */
 #include <stdio.h>
 #include <stdlib.h>
 

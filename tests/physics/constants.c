@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints statistics of a few runs, each with its standard error: NAME VALUE ERROR. test_constants.sh compares what comes
- * out with other numerical constants. */
+/* Print statistics of a few runs, each with its standard error: NAME VALUE ERROR. test_constants.sh compares them with other
+ * numerical constants. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ static void show(const char *name, const struct ceduo_scene *scene, const struct
         fail();
     double n = (double)rocks, contacts = (double)ceduo_run_contacts(run) / n;
     printf("%s-reach %.15g %.3g\n", name, a.reach.mean, (a.reach.hi - a.reach.lo) / 3.92);
-    printf("%s-contacts %.15g %.3g\n", name, contacts, contacts / sqrt(n)); /* their spread is of their size */
+    printf("%s-contacts %.15g %.3g\n", name, contacts, contacts / sqrt(n)); /* their spread is about their size */
     if (a.reached > 100) {
         printf("%s-speed %.15g %.3g\n", name, a.speed.mean, a.speed.se);
         printf("%s-energy %.15g %.3g\n", name, a.energy.mean, a.energy.se);
@@ -69,7 +69,7 @@ static void show_fine(const char *name, struct ceduo_scene scene, double by, uin
 
 int main(void)
 {
-    for (int kind = 0; kind < CEDUO_LAW_COUNT + 2; kind++) { /* the last two have the friction bound */
+    for (int kind = 0; kind < CEDUO_LAW_COUNT + 2; kind++) { /* the last two with the friction bound */
         static const char *const names[][4] = {
             {"lumped", "lumped-forest", "lumped-cut", "lumped-moved"},
             {"crsp", "crsp-forest", "crsp-cut", "crsp-moved"},

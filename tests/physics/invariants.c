@@ -7,36 +7,36 @@
 #include "test.h"
 
 #define ENERGY     1e-12
-#define UNDER      1e-9  /* m below the ground, or */
-#define UNDER_SIZE 1e-13 /* of the largest coordinate of the way, whichever is larger */
+#define UNDER      1e-9  /* m below ground, or */
+#define UNDER_SIZE 1e-13 /* this share of the trajectory's largest coordinate */
 
-struct watch {
+struct checker {
     const struct line_scene *scene;
     struct ceduo_rock rock;
     double k; /* 0: no spin */
     bool smooth;
     struct ceduo_trajectory_segment last;
     uint64_t pieces, flights, impacts;
-    uint64_t in_crack;                               /* so many pieces flew from wall to wall of a crack */
-    double size, under, energy_off, gain, crsp_gain; /* largest so far */
-    double over_bound, roll_off;                     /* with the friction bound: largest so far, of the speed */
-    bool bad;                                        /* not a number, or a gap between pieces */
+    uint64_t in_crack;                               /* segments from wall to wall of a crack */
+    double size, under, energy_off, gain, crsp_gain; /* maxima */
+    double over_bound, roll_off;                     /* maxima with the friction bound, as a share of the speed */
+    bool bad;                                        /* NaN, or a gap between segments */
 };
 
-static double kinetic(const struct watch *w, double vx, double vz, double spin)
+static double kinetic(const struct checker *w, double vx, double vz, double spin)
 {
     double rim = spin * w->rock.radius;
     return (vx * vx + vz * vz + w->k * (rim * rim)) / 2;
 }
 
-static double spin_at_end(const struct watch *w, const struct ceduo_trajectory_segment *p)
+static double spin_at_end(const struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     if (!p->rolls || !(w->k > 0))
         return p->spin;
     return (p->vx1 < 0 ? -1 : 1) * hypot(p->vx1, p->vz1) / w->rock.radius;
 }
 
-/* Height of a flight's parabola at x, from whichever end is nearer. */
+/* Height of a flight's parabola at x, computed from the nearer end. */
 static double height_of_flight(const struct ceduo_trajectory_segment *p, double g, double x)
 {
     if (fabs(x - p->x) < fabs(x - p->x1)) {
@@ -47,47 +47,47 @@ static double height_of_flight(const struct ceduo_trajectory_segment *p, double 
     return p->z1 + (p->vz1 - g / 2 * t) * t;
 }
 
-static double depth_under(const struct ceduo_slope *s, size_t j, double x, double z)
+static double depth_below(const struct ceduo_slope *s, size_t j, double x, double z)
 {
     double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j];
     return ((x - s->x[j]) * dz - (z - s->z[j]) * dx) / hypot(dx, dz);
 }
 
-static void look_under(struct watch *w, size_t j, double x, double z)
+static void check_depth(struct checker *w, size_t j, double x, double z)
 {
-    w->under = fmax(w->under, depth_under(&w->scene->scene.slope, j, x, z));
+    w->under = fmax(w->under, depth_below(&w->scene->scene.slope, j, x, z));
 }
 
 /* The same at an end of a roll. The x of a place on a wall may round to that of the wall's end: then it is on the wall. */
-static void look_under_roll(struct watch *w, size_t j, double x, double z)
+static void check_roll_depth(struct checker *w, size_t j, double x, double z)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
-    double depth = depth_under(s, j, x, z);
+    double depth = depth_below(s, j, x, z);
     if (j > 0 && x == s->x[j])
-        depth = fmin(depth, depth_under(s, j - 1, x, z));
+        depth = fmin(depth, depth_below(s, j - 1, x, z));
     w->under = fmax(w->under, depth);
 }
 
-/* Above a straight segment the flight is concave: it is lowest over the ends of the segment or of its own. A vertex at
- * either end is on the segment that lies towards the rest of the flight. */
-static void look_under_flight(struct watch *w, const struct ceduo_trajectory_segment *p)
+/* Over a straight segment the flight is concave: it is lowest over the ends of the segment or at its own ends. A vertex at
+ * either end belongs to the segment towards the rest of the flight. */
+static void check_flight_depth(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
     double lo = fmin(p->x, p->x1), hi = fmax(p->x, p->x1), g = w->scene->scene.simulation.gravity;
     size_t j = ceduo_slope_segment(s, lo);
     double x_lo = lo, z_lo = p->x <= p->x1 ? p->z : p->z1, z_hi = p->x <= p->x1 ? p->z1 : p->z;
     for (;; j++) {
-        look_under(w, j, x_lo, z_lo);
+        check_depth(w, j, x_lo, z_lo);
         if (j + 2 == s->vertices || s->x[j + 1] >= hi)
             break;
         x_lo = s->x[j + 1];
         z_lo = height_of_flight(p, g, x_lo);
-        look_under(w, j, x_lo, z_lo);
+        check_depth(w, j, x_lo, z_lo);
     }
-    look_under(w, j, hi, z_hi);
+    check_depth(w, j, hi, z_hi);
 }
 
-static void look_at_flight(struct watch *w, const struct ceduo_trajectory_segment *p)
+static void check_flight(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     double g = w->scene->scene.simulation.gravity;
     double v2 = (p->vx * p->vx + p->vz * p->vz) / 2, v2_end = (p->vx1 * p->vx1 + p->vz1 * p->vz1) / 2;
@@ -95,24 +95,24 @@ static void look_at_flight(struct watch *w, const struct ceduo_trajectory_segmen
     double off = fabs((v2 + g * p->z) - (v2_end + g * p->z1));
     if (off > 0)
         w->energy_off = fmax(w->energy_off, off / fmax(scale, scale_end));
-    look_under_flight(w, p);
+    check_flight_depth(w, p);
     w->flights++;
 }
 
-/* A flight of less than a micrometre, or a hundredth of the radius, between two walls that face each other. A rock, which is
- * a point here, sinks down such a crack in ever so many contacts, and may well need more than are counted. */
+/* True for a flight shorter than a micrometre, or a hundredth of the radius, between two facing walls. A rock, a point here,
+ * sinks into such a crack in very many contacts, perhaps more than the limit. */
 static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct ceduo_trajectory_segment *p)
 {
     size_t j = ceduo_slope_segment(s, fmin(p->x, p->x1)), k = ceduo_slope_segment(s, fmax(p->x, p->x1));
-    if (j > 0 && fmin(p->x, p->x1) == s->x[j]) /* on the vertex at the bottom, the wall is behind it */
+    if (j > 0 && fmin(p->x, p->x1) == s->x[j]) /* on the bottom vertex: the wall is the previous segment */
         j--;
-    double left = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]);
+    double gradient = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]);
     double right = (s->z[k + 1] - s->z[k]) / (s->x[k + 1] - s->x[k]);
-    return !p->rolls && fabs(p->x1 - p->x) < fmax(1e-6, 1e-2 * radius) && left < -1e3 && right > 1e3;
+    return !p->rolls && fabs(p->x1 - p->x) < fmax(1e-6, 1e-2 * radius) && gradient < -1e3 && right > 1e3;
 }
 
-/* On the ground a rock gains no more than what it drops. */
-static void look_at_roll(struct watch *w, const struct ceduo_trajectory_segment *p)
+/* On the ground a rock gains at most its drop. */
+static void check_roll(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     double g = w->scene->scene.simulation.gravity, share = (1 + w->k) / 2;
     double before = share * (p->vx * p->vx + p->vz * p->vz), after = share * (p->vx1 * p->vx1 + p->vz1 * p->vz1);
@@ -120,14 +120,14 @@ static void look_at_roll(struct watch *w, const struct ceduo_trajectory_segment 
     double scale = fmax(before + g * (fabs(p->x) + fabs(p->z)), after + g * (fabs(p->x1) + fabs(p->z1)));
     if (gained > 0)
         w->energy_off = fmax(w->energy_off, gained / scale);
-    /* the middle may round to the far end, and that to the next segment */
+    /* the middle may round to the far end, and so to the next segment */
     size_t j = ceduo_slope_segment(&w->scene->scene.slope, fmin(p->x, p->x1));
-    look_under_roll(w, j, p->x, p->z);
-    look_under_roll(w, j, p->x1, p->z1);
+    check_roll_depth(w, j, p->x, p->z);
+    check_roll_depth(w, j, p->x1, p->z1);
 }
 
-/* crsp on a smooth segment: what was along the ground and in the spin becomes at most Rt(Rt + (1 - Rt)/1.2) of it. */
-static void look_at_crsp(struct watch *w, const struct ceduo_trajectory_segment *p)
+/* crsp on a smooth segment: energy along the ground and of spin falls to at most Rt(Rt + (1 - Rt)/1.2) of it. */
+static void check_crsp(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
     const struct ceduo_simulation *simulation = &w->scene->scene.simulation;
@@ -135,21 +135,21 @@ static void look_at_crsp(struct watch *w, const struct ceduo_trajectory_segment 
         return;
     size_t j = ceduo_slope_segment(s, p->x);
     if (p->x == s->x[j] || p->x == s->x[j + 1])
-        return; /* on a vertex: which segment, is not told */
+        return; /* on a vertex: its segment is unknown */
     double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j], length = hypot(dx, dz);
     double before = (w->last.vx1 * dx + w->last.vz1 * dz) / length, after = (p->vx * dx + p->vz * dz) / length;
     double rim_before = spin_at_end(w, &w->last) * w->rock.radius, rim_after = p->spin * w->rock.radius;
-    double rt = s->segments[j].rt.mean, most = rt * (rt + (1 - rt) / 1.2);
+    double rt = s->segments[j].rt.mean, max = rt * (rt + (1 - rt) / 1.2);
     double e0 = before * before + w->k * rim_before * rim_before, e1 = after * after + w->k * rim_after * rim_after;
     double rounding = 1e-15 * (w->last.vx1 * w->last.vx1 + w->last.vz1 * w->last.vz1 + p->vx * p->vx + p->vz * p->vz);
-    if (e1 > most * e0 + rounding && e0 > 1e-280) /* below, squares lose their bits */
-        w->crsp_gain = fmax(w->crsp_gain, e0 > 0 ? e1 / (most * e0) - 1 : INFINITY);
+    if (e1 > max * e0 + rounding && e0 > 1e-280) /* smaller squares lose their bits */
+        w->crsp_gain = fmax(w->crsp_gain, e0 > 0 ? e1 / (max * e0) - 1 : INFINITY);
     w->impacts++;
 }
 
-/* With the friction bound a rock that goes on rolling keeps its speed, and one that flies from a smooth segment has lost at
+/* With the friction bound a rock that continues rolling keeps its speed. A rock that flies from a smooth segment has lost at
  * most friction times the normal impulse along it. */
-static void look_at_bound(struct watch *w, const struct ceduo_trajectory_segment *p)
+static void check_bound(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
     const struct ceduo_simulation *simulation = &w->scene->scene.simulation;
     const struct ceduo_slope *s = &w->scene->scene.slope;
@@ -163,25 +163,25 @@ static void look_at_bound(struct watch *w, const struct ceduo_trajectory_segment
     }
     size_t j = ceduo_slope_segment(s, p->x);
     if (p->rolls || !w->smooth || p->x == s->x[j] || p->x == s->x[j + 1])
-        return; /* the speed after the impact is not known, or its segment */
+        return; /* speed after the impact, or its segment, is unknown */
     double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j], length = hypot(dx, dz);
     double vt = (w->last.vx1 * dx + w->last.vz1 * dz) / length, vt_out = (p->vx * dx + p->vz * dz) / length;
     double vn = (w->last.vz1 * dx - w->last.vx1 * dz) / length, vn_out = (p->vz * dx - p->vx * dz) / length;
-    double most = s->segments[j].friction * (fmax(0, -vn) + vn_out);
-    w->over_bound = fmax(w->over_bound, (fabs(vt) - fabs(vt_out) - most) / before);
+    double max = s->segments[j].friction * (fmax(0, -vn) + vn_out);
+    w->over_bound = fmax(w->over_bound, (fabs(vt) - fabs(vt_out) - max) / before);
     w->impacts++;
 }
 
-static void look_at_piece(void *context, const struct ceduo_trajectory_segment *p)
+static void check_segment(void *context, const struct ceduo_trajectory_segment *p)
 {
-    struct watch *w = context;
+    struct checker *w = context;
     double sum = p->x + p->z + p->vx + p->vz + p->x1 + p->z1 + p->vx1 + p->vz1 + p->spin + p->seconds;
     w->bad |= !isfinite(sum) || p->seconds < 0;
     w->size = fmax(w->size, fmax(fmax(fabs(p->x), fabs(p->z)), fmax(fabs(p->x1), fabs(p->z1))));
     if (p->rolls)
-        look_at_roll(w, p);
+        check_roll(w, p);
     else
-        look_at_flight(w, p);
+        check_flight(w, p);
     w->in_crack += is_in_crack(&w->scene->scene.slope, w->rock.radius, p);
     if (w->pieces > 0) {
         w->bad |= p->x != w->last.x1 || p->z != w->last.z1 || p->contacts < w->last.contacts;
@@ -189,8 +189,8 @@ static void look_at_piece(void *context, const struct ceduo_trajectory_segment *
         double after = kinetic(w, p->vx, p->vz, p->spin);
         if (after > before && before > 1e-280)
             w->gain = fmax(w->gain, after / before - 1);
-        look_at_crsp(w, p);
-        look_at_bound(w, p);
+        check_crsp(w, p);
+        check_bound(w, p);
     }
     w->last = *p;
     w->pieces++;
@@ -204,10 +204,10 @@ static bool is_smooth(const struct line_scene *s)
     return true;
 }
 
-static void expect_number(uint64_t scene, const char *what, double value, double most)
+static void expect_number(uint64_t scene, const char *what, double value, double max)
 {
-    if (!(value <= most))
-        fail_msg("scene %ju: %s %g, more than %g", (uintmax_t)scene, what, value, most);
+    if (!(value <= max))
+        fail_msg("scene %ju: %s %g, more than %g", (uintmax_t)scene, what, value, max);
 }
 
 static void expect_crossing(uint64_t number, const struct ceduo_crossing *c)
@@ -216,8 +216,8 @@ static void expect_crossing(uint64_t number, const struct ceduo_crossing *c)
         fail_msg("scene %ju: a crossing with %g %g %g %g", (uintmax_t)number, c->vx, c->vz, c->spin, c->height);
 }
 
-/* Without friction a rock that rolls slowly to and fro on level ground need never come to rest. */
-static bool creeps(const struct watch *w)
+/* True if a rock without friction rolls slowly to and fro on level ground, perhaps for ever. */
+static bool is_creeping(const struct checker *w)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
     return w->last.rolls && s->segments[ceduo_slope_segment(s, w->last.x1)].friction == 0;
@@ -227,16 +227,16 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
 {
     struct ceduo_trajectory way;
     struct ceduo_crossing crossing = {0};
-    struct watch w = {.scene = s, .smooth = is_smooth(s)};
+    struct checker w = {.scene = s, .smooth = is_smooth(s)};
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
     assert_int_equal(ceduo_rock_from_means(&s->scene.rock, &w.rock), CEDUO_OK);
-    if (s->scene.simulation.law == CEDUO_LAW_ARM) { /* whose section is drawn */
+    if (s->scene.simulation.law == CEDUO_LAW_ARM) { /* the section is drawn */
         assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11, NULL, &way, NULL), CEDUO_OK);
         w.rock = way.rock;
     }
     w.k = s->scene.simulation.law == CEDUO_LAW_LUMPED ? 0 : w.rock.k;
     assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11,
-                                          &(struct ceduo_trajectory_callbacks){.piece = look_at_piece, .context = &w}, &way,
+                                          &(struct ceduo_trajectory_callbacks){.piece = check_segment, .context = &w}, &way,
                                           &crossing),
                      CEDUO_OK);
     if (w.bad || !isfinite(way.x + way.z) || (w.pieces > 0 && (way.x != w.last.x1 || way.z != w.last.z1)))
@@ -252,7 +252,7 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     if (way.end == CEDUO_LEFT_SLOPE && way.x != 0 && way.x != end)
         fail_msg("scene %ju: left the slope at %g", (uintmax_t)number, way.x);
     bool crack = way.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MAX / 2;
-    if (way.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack && !creeps(&w))
+    if (way.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack && !is_creeping(&w))
         fail_msg("scene %ju: unfinished", (uintmax_t)number);
     tally->last = way;
     tally->ends[way.end]++;

@@ -6,14 +6,14 @@
 
 #include "line_scene.h"
 
-/* What was seen over many scenes. */
+/* Totals over many scenes. */
 struct invariants_tally {
     uint64_t ends[CEDUO_ENDS], contacts, pieces, flights, impacts, lasting, crossed, cracks;
-    struct ceduo_trajectory last; /* the last way */
+    struct ceduo_trajectory last; /* last trajectory */
 };
 
-/* Follows one rock of a scene and fails the test where something does not hold that holds on any ground: never below it,
- * no energy gained, no gap in the way, no end but those of the model, nothing that is not a number. `number` names it. */
+/* Simulate one rock of a scene and check what holds on any ground: never below it, no energy gained, no gap in the trajectory,
+ * no end unknown to the model, no NaN. `number` names the scene. */
 void invariants_expect(struct line_scene *scene, uint64_t number, struct invariants_tally *tally);
 
 #endif

@@ -50,7 +50,7 @@ void line_scene_drop(struct line_scene *s, double radius, double accepted)
     s->scene.controls_count = 1;
 }
 
-/* ---- slopes by themselves ---- */
+/* ---- slopes ---- */
 
 struct ceduo_slope slope_new(size_t vertices)
 {
@@ -177,14 +177,14 @@ static void random_segment(struct ceduo_segment *to, struct line_random *r, doub
 static void random_ground(struct line_scene *s, struct line_random *r, double radius, bool lasting)
 {
     double rough = line_chance(r, 0.4) ? 0 : line_chance(r, 0.1) ? 1.5 : 0.5;
-    bool alike = line_chance(r, 0.5), ones = line_chance(r, 0.05);
+    bool equal = line_chance(r, 0.5), ones = line_chance(r, 0.05);
     for (size_t j = 0; j + 1 < s->scene.slope.vertices; j++) {
         struct ceduo_segment *to = &s->segments[j];
-        if (alike && j > 0)
+        if (equal && j > 0)
             *to = s->segments[0];
         else
             random_segment(to, r, radius, rough);
-        /* a share of 1 that something else still brakes */
+        /* Rt or Rn is 1, but another value still brakes */
         if (ones && s->scene.simulation.law == CEDUO_LAW_CRSP)
             to->rn.mean = 1;
         else if (ones && to->friction > 0.05)
@@ -231,7 +231,7 @@ void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_e
     s->control =
         (struct ceduo_control){.x = at + (end - at) * line_uniform(r, 0.01, 1), .accepted = NAN, .measured_speed = NAN};
     scene->controls_count = 1;
-    scene->simulation.friction_bound = line_chance(r, 0.5); /* the last draw: the rest of a scene stays as it was without it */
+    scene->simulation.friction_bound = line_chance(r, 0.5); /* drawn last, so that the other draws of a scene do not change */
 }
 
 void line_scene_arm(struct line_scene *s, uint64_t number)
@@ -244,9 +244,9 @@ void line_scene_arm(struct line_scene *s, uint64_t number)
     rock->height = ceduo_number(size * line_uniform(r, 0.3, 3));
     for (int i = 0; i < 3; i++)
         rock->axes[i] = ceduo_number(size * line_uniform(r, 0.4, 2));
-    bool alike = line_chance(r, 0.5);
+    bool equal = line_chance(r, 0.5);
     for (size_t j = 0; j + 1 < s->scene.slope.vertices; j++)
-        s->segments[j].mu = alike && j > 0 ? s->segments[0].mu : line_chance(r, 0.05) ? 0 : line_uniform(r, 0, 3);
+        s->segments[j].mu = equal && j > 0 ? s->segments[0].mu : line_chance(r, 0.05) ? 0 : line_uniform(r, 0, 3);
 }
 
 bool line_scene_lasts(const struct line_scene *s)
@@ -263,7 +263,7 @@ bool line_scene_lasts(const struct line_scene *s)
     return false;
 }
 
-/* ---- following ---- */
+/* ---- simulation ---- */
 
 void line_keep_piece(void *context, const struct ceduo_trajectory_segment *piece)
 {

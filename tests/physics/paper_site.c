@@ -112,7 +112,7 @@ void paper_site_init(struct paper_site *site)
     scene->options = &site->option;
     scene->simulation = ceduo_scene_default().simulation;
     scene->simulation.law = CEDUO_LAW_LUMPED;
-    /* Figures of the paper's slope are those of the published laws; the friction bound gives 150 kJ instead of 115. */
+    /* The paper's figures belong to the published laws; the friction bound gives 150 kJ instead of 115. */
     scene->simulation.friction_bound = false;
 }
 

@@ -7,15 +7,15 @@
 
 struct map {
     const struct ceduo_stand *stand;
-    double from, to, half_width; /* of the rectangle that is planted */
+    double from, to, half_width; /* planted rectangle */
     double b, start;
     gsl_rng *rng;
-    uint64_t numbers; /* stools and trees so far */
+    uint64_t numbers; /* stools and trees planted */
     struct map_stem *stems;
-    size_t count, most;
+    size_t count, max;
 };
 
-static double sum_of(const struct ceduo_stems *kinds, size_t n)
+static double mean_sum(const struct ceduo_stems *kinds, size_t n)
 {
     double sum = 0;
     for (size_t i = 0; i < n; i++)
@@ -28,22 +28,22 @@ static double ring_radius(unsigned n, double spacing)
     return n > 1 ? spacing / 2 / sin(M_PI / n) : 0;
 }
 
-static void look_at(struct map *m, double x, double y, double dbh, bool shoot)
+static void check_stem(struct map *m, double x, double y, double dbh, bool shoot)
 {
     if (x < m->start || fabs(y) > m->b / 2 + dbh / 2)
         return;
-    if (m->count < m->most)
+    if (m->count < m->max)
         m->stems[m->count] = (struct map_stem){x, y, dbh, shoot, m->numbers};
     m->count++;
 }
 
-/* A uniform place for each of a Poisson number of centres. */
-static unsigned centres(const struct map *m, double per_ha)
+/* Draw a uniform draw_place for each of a Poisson number of draw_centres. */
+static unsigned draw_centres(const struct map *m, double per_ha)
 {
     return gsl_ran_poisson(m->rng, per_ha / 1e4 * (m->to - m->from) * 2 * m->half_width);
 }
 
-static void place(const struct map *m, double *x, double *y)
+static void draw_place(const struct map *m, double *x, double *y)
 {
     *x = gsl_ran_flat(m->rng, m->from, m->to);
     *y = gsl_ran_flat(m->rng, -m->half_width, m->half_width);
@@ -60,32 +60,32 @@ static double dbh_of_shoot(const struct map *m, double shoots)
 
 static void plant_stools(struct map *m)
 {
-    double shoots = sum_of(m->stand->shoots, m->stand->shoots_count), mean = shoots / m->stand->stools_per_ha;
-    for (unsigned left = centres(m, m->stand->stools_per_ha); left > 0; left--) {
+    double shoots = mean_sum(m->stand->shoots, m->stand->shoots_count), mean = shoots / m->stand->stools_per_ha;
+    for (unsigned rest = draw_centres(m, m->stand->stools_per_ha); rest > 0; rest--) {
         double x, y;
-        place(m, &x, &y);
+        draw_place(m, &x, &y);
         unsigned n = (unsigned)floor(mean) + (gsl_rng_uniform(m->rng) < mean - floor(mean));
         double turn = gsl_ran_flat(m->rng, 0, 2 * M_PI), r = ring_radius(n, m->stand->spacing);
         m->numbers++;
         for (unsigned i = 0; i < n; i++) {
             double angle = turn + 2 * M_PI * i / n;
-            look_at(m, x + r * cos(angle), y + r * sin(angle), dbh_of_shoot(m, shoots), true);
+            check_stem(m, x + r * cos(angle), y + r * sin(angle), dbh_of_shoot(m, shoots), true);
         }
     }
 }
 
 static void plant_trees(struct map *m, const struct ceduo_stems *kind)
 {
-    for (unsigned left = centres(m, kind->per_ha); left > 0; left--) {
+    for (unsigned rest = draw_centres(m, kind->per_ha); rest > 0; rest--) {
         double x, y;
-        place(m, &x, &y);
+        draw_place(m, &x, &y);
         m->numbers++;
-        look_at(m, x, y, kind->dbh, false);
+        check_stem(m, x, y, kind->dbh, false);
     }
 }
 
-/* Farther from the strip than this no centre matters, whatever is drawn; with a metre to spare. */
-static double half_width_of(const struct ceduo_stand *stand, double b)
+/* Half the width of the planted strip: draw_centres farther away never matter. Has a metre to spare. */
+static double planted_half_width(const struct ceduo_stand *stand, double b)
 {
     double thickest = 0, r = 0;
     for (size_t i = 0; i < stand->shoots_count; i++)
@@ -93,32 +93,32 @@ static double half_width_of(const struct ceduo_stand *stand, double b)
     for (size_t i = 0; i < stand->trees_count; i++)
         thickest = fmax(thickest, stand->trees[i].dbh);
     if (stand->shoots_count > 0)
-        r = ring_radius((unsigned)ceil(sum_of(stand->shoots, stand->shoots_count) / stand->stools_per_ha), stand->spacing);
+        r = ring_radius((unsigned)ceil(mean_sum(stand->shoots, stand->shoots_count) / stand->stools_per_ha), stand->spacing);
     return r + (b + thickest) / 2 + 1;
 }
 
-static int by_x(const void *a, const void *b)
+static int compare_x(const void *a, const void *b)
 {
     const struct map_stem *p = a, *q = b;
     return (p->x > q->x) - (p->x < q->x);
 }
 
 size_t plane_map_sweep(const struct ceduo_option *option, double b, double start, gsl_rng *rng, struct map_stem *stems,
-                       size_t most)
+                       size_t max)
 {
-    struct map m = {.b = b, .start = start, .rng = rng, .stems = stems, .most = most};
+    struct map m = {.b = b, .start = start, .rng = rng, .stems = stems, .max = max};
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         m.stand = &belt->stand;
         m.from = belt->from;
         m.to = belt->to;
-        m.half_width = half_width_of(m.stand, b);
+        m.half_width = planted_half_width(m.stand, b);
         if (m.stand->shoots_count > 0)
             plant_stools(&m);
         for (size_t k = 0; k < m.stand->trees_count; k++)
             plant_trees(&m, &m.stand->trees[k]);
     }
-    if (m.count <= most)
-        qsort(stems, m.count, sizeof *stems, by_x);
+    if (m.count <= max)
+        qsort(stems, m.count, sizeof *stems, compare_x);
     return m.count;
 }

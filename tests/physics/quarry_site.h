@@ -4,16 +4,16 @@
 
 #include "ceduo/calibrate.h"
 
-/* A site whose ground is known, because ceduo made what was seen on it: a quarry face, its scree and the level ground below. Its
- * values are drawn in their bounds, some rocks are released and seen to stop and to pass a place, and the values are to be found
- * again. */
+/* A site with known ground, because ceduo makes its observations: a quarry face, its scree and the level ground below. Its
+ * values are drawn within their bounds. Some rocks are released; their stops and passages are observed, and the values fitted
+ * to them. */
 #define QUARRY_VALUES_MAX 4
-#define QUARRY_KINDS      3 /* stops, speeds and heights at a place */
+#define QUARRY_KINDS      3 /* stops; speeds and heights at a place */
 #define QUARRY_VERTICES   6
 
 extern const char *const quarry_names[QUARRY_VALUES_MAX];
 
-/* It points into itself: never copy it. */
+/* Contains pointers into itself: never copy it. */
 struct quarry_site {
     struct ceduo_scene scene;
     double x[QUARRY_VERTICES], z[QUARRY_VERTICES];
@@ -24,21 +24,21 @@ struct quarry_site {
     struct ceduo_input inputs[QUARRY_VALUES_MAX];
 };
 
-/* How a site is tried. */
+/* Settings of one trial of a site. */
 struct quarry_trial {
-    size_t number;          /* of the site: its truth and its rocks follow from it */
-    size_t values, kinds;   /* fitted: the first of quarry_names; seen: stops alone, or with speeds, or with heights as well */
-    enum ceduo_law made_by; /* the fit is by lumped */
-    uint64_t seen, rocks;   /* rocks released and seen; in each evaluation */
-    size_t steps_max;       /* of each chain; 0: as many as is usual */
+    size_t number;          /* seed of the site's truth and rocks */
+    size_t values, kinds;   /* fitted: the first of quarry_names; observed: stops alone, with speeds, or also with heights */
+    enum ceduo_law made_by; /* law of the observations; the fit uses lumped */
+    uint64_t seen, rocks;   /* rocks released and observed; rocks per evaluation */
+    size_t steps_max;       /* per chain; 0: default */
     unsigned threads;       /* 0: one */
 };
 
-/* False where too few rocks pass or stop; then nothing is to be freed. `truth`: the values drawn, of which those that are not
- * fitted are known. */
+/* Return false if too few rocks pass or stop; then there is nothing to free. `truth`: all drawn values; those not fitted are
+ * fixed. */
 bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct ceduo_calibration *answer);
 
-/* p of each kind seen, on the true ground without a fit. False as above. */
+/* Compute p of each kind on the true ground without a fit. Returns false as above. */
 bool quarry_look(const struct quarry_trial *trial, double p[QUARRY_KINDS]);
 
 #endif

@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define CHANCE 1e-4 /* of a test of fit to fail though all is right; four standard errors are 6e-5 */
+#define CHANCE 1e-4 /* probability that a correct program fails a test of fit; four standard errors are 6e-5 */
 
 void spread_add(struct spread *s, double value)
 {
@@ -98,9 +98,9 @@ void expect_chi_square(const char *what, double chi2, double freedom)
 
 void expect_ks(const char *what, double d, double size)
 {
-    double most = sqrt(-log(CHANCE / 2) / 2);
-    print_message("# %s: D = %.2e, D sqrt(n) = %.3f of at most %.3f\n", what, d, d * sqrt(size), most);
-    if (!(d * sqrt(size) < most))
+    double max = sqrt(-log(CHANCE / 2) / 2);
+    print_message("# %s: D = %.2e, D sqrt(n) = %.3f of at most %.3f\n", what, d, d * sqrt(size), max);
+    if (!(d * sqrt(size) < max))
         fail_msg("%s: D = %.3g of %.0f", what, d, size);
 }
 
@@ -164,7 +164,7 @@ void expect_poisson(const char *what, const uint64_t count[COUNTS_MAX], double m
         seen += (double)count[k];
         expected += n * p;
         left -= p;
-        bool last = n * left < 10; /* the tail joins the last cell */
+        bool last = n * left < 10; /* the last cell includes the tail */
         if (last)
             for (expected += n * left; ++k < COUNTS_MAX;)
                 seen += (double)count[k];

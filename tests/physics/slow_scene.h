@@ -8,7 +8,7 @@
 #include "ceduo/scene.h"
 #include "slow_walk.h"
 
-/* Set one segment for each stretch between two vertices. A roughness in m is an angle for a rock of this radius. */
+/* Fill one segment for each stretch between two vertices. A roughness in m is an angle for a rock of this radius. */
 static inline void slow_segments(const struct ceduo_slope *slope, double radius, struct slow_segment *to)
 {
     for (size_t j = 0; j + 1 < slope->vertices; j++) {

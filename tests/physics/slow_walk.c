@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The contact law `crsp` is that of Pfeiffer & Higgins (1990) and of the CRSP 3.0 manual; rolling in steps of one
- * radius is CRSP's too, measured along the ground so that a slope cut more finely gives the same way. With
- * `friction_bound` an impact takes at most friction times its normal impulse along the ground, and a rock that goes on
- * rolling loses to friction alone: assumptions of ceduo 0.5. */
+/* The contact law `crsp` follows Pfeiffer & Higgins (1990) and the CRSP 3.0 manual. Rolling in steps of one radius is CRSP's,
+ * too, measured along the ground, so that a finer slope gives the same trajectory. With `friction_bound` an impact takes at
+ * most friction times its normal impulse along the ground, and a rock that continues rolling loses energy only to friction.
+ * Both are assumptions of ceduo 0.5. */
 #include "slow_walk.h"
 
 #include <tgmath.h>
 
-/* CRSP's scales, 20, 30 and 250 ft/s. */
+/* Scales of CRSP: 20, 30 and 250 ft/s. */
 static const slow_real friction_speed = (slow_real)6.096L, normal_speed = (slow_real)9.144L, scaling_speed = (slow_real)76.2L;
 
-/* What the rock does next. */
+/* Next step of the rock. */
 enum todo { TODO_CONTACT, TODO_FLIGHT, TODO_ROLL, TODO_STAND, TODO_NOTHING };
 
-/* Where a flight meets the ground. */
+/* The next contact of a flight with the ground. */
 struct touch {
     const struct slow_segment *at; /* NULL: it leaves the profile */
     slow_real time, x;
@@ -22,14 +22,14 @@ struct touch {
 struct walker {
     const struct slow_def *def;
     struct slow_way *way;
-    const struct slow_segment *at; /* the segment it is on, or the one under it at its release */
+    const struct slow_segment *at; /* current segment, or the one under the release */
     bool on_ground;
-    bool rolled; /* true if it came to this contact rolling */
+    bool rolled; /* true if it reached this contact rolling */
     slow_real x, z, vx, vz, spin;
-    struct touch touch; /* of the flight that comes next */
+    struct touch touch; /* end of the next flight */
 };
 
-/* A roll of one radius: the square of the speed, the length still to go, and the direction in x. */
+/* A roll of one radius: squared speed, remaining length, and direction in x. */
 struct roll {
     slow_real u2, left;
     int direction;
@@ -40,8 +40,8 @@ static slow_real square(slow_real v)
     return v * v;
 }
 
-/* The nearest to v in [lo, hi]; lo for NaN. */
-static slow_real within(slow_real v, slow_real lo, slow_real hi)
+/* Clamp v to [lo, hi]; lo for NaN. */
+static slow_real clamp(slow_real v, slow_real lo, slow_real hi)
 {
     return !(v > lo) ? lo : v < hi ? v : hi;
 }
@@ -51,9 +51,9 @@ static slow_real not_below_0(slow_real v)
     return v > 0 ? v : 0;
 }
 
-/* ---- the ground ---- */
+/* ---- ground ---- */
 
-static struct slow_turn turn_of(slow_real angle)
+static struct slow_turn facet_turn(slow_real angle)
 {
     return (struct slow_turn){cos(angle), sin(angle)};
 }
@@ -63,18 +63,18 @@ struct slow_segment slow_segment_between(double x0, double z0, double x1, double
     struct slow_segment s = {.x0 = x0, .z0 = z0, .x1 = x1, .z1 = z1};
     s.slope = (s.z1 - s.z0) / (s.x1 - s.x0);
     s.angle = atan2(s.z1 - s.z0, s.x1 - s.x0);
-    s.turn = turn_of(s.angle);
+    s.turn = facet_turn(s.angle);
     return s;
 }
 
-/* Height at x; exactly that of the vertex at either end, so that what is put on a vertex is on both of its segments. */
+/* Return the height at x; exactly the vertex's at either end, so that a point on a vertex lies on both segments. */
 static slow_real ground(const struct slow_segment *s, slow_real x)
 {
     return x == s->x1 ? s->z1 : s->z0 + s->slope * (x - s->x0);
 }
 
-/* The segment over which x lies: the right-hand one at a vertex, the last one at the end of the profile. */
-static const struct slow_segment *segment_at(const struct slow_def *def, slow_real x)
+/* Return the segment below x: the right-hand one at a vertex, the last one at the end of the profile. */
+static const struct slow_segment *find_segment(const struct slow_def *def, slow_real x)
 {
     const struct slow_segment *s = def->segments;
     while (s < def->segments + def->count - 1 && x >= s->x1)
@@ -82,7 +82,7 @@ static const struct slow_segment *segment_at(const struct slow_def *def, slow_re
     return s;
 }
 
-/* For a rock that goes in `direction`: the ends of a segment, and whether it is the last. */
+/* Return the end of a segment for a rock moving in `direction`. */
 static slow_real exit_x(const struct slow_segment *s, int direction)
 {
     return direction > 0 ? s->x1 : s->x0;
@@ -98,19 +98,19 @@ static bool is_last(const struct slow_def *def, const struct slow_segment *s, in
     return s == (direction > 0 ? def->segments + def->count - 1 : def->segments);
 }
 
-/* Length along the ground between two abscissae, across any vertices. */
+/* Return the length along the ground between two abscissae, across any vertices. */
 static slow_real ground_length(const struct slow_def *def, slow_real from, slow_real to)
 {
     slow_real x = from < to ? from : to, high = from < to ? to : from, sum = 0;
-    const struct slow_segment *s = segment_at(def, x);
+    const struct slow_segment *s = find_segment(def, x);
     for (; high > s->x1 && !is_last(def, s, 1); x = s++->x1)
         sum += (s->x1 - x) / s->turn.cosine;
     return sum + (high - x) / s->turn.cosine;
 }
 
-/* ---- the rock ---- */
+/* ---- rock ---- */
 
-/* The lumped law knows no rotation: k = 0 there, rolling included. */
+/* Return k; 0 for the lumped law, which has no rotation, not even in rolling. */
 static slow_real inertia(const struct slow_def *def)
 {
     return def->law == SLOW_CRSP ? (slow_real)def->k : 0;
@@ -121,7 +121,7 @@ static slow_real rolling_spin(const struct slow_def *def, slow_real u)
     return def->law == SLOW_CRSP ? u / (slow_real)def->radius : 0;
 }
 
-static int direction_of(slow_real v)
+static int find_direction(slow_real v)
 {
     return (v > 0) - (v < 0);
 }
@@ -158,9 +158,9 @@ static enum todo end(struct walker *w, enum slow_end how)
     return TODO_NOTHING;
 }
 
-/* ---- the control ---- */
+/* ---- control ---- */
 
-/* Whether it lies in (x, to] and waits for its first crossing. A way back has to < x, so nothing does. */
+/* True if the control lies in (x, to] and has not been crossed. A trajectory back has to < x and crosses nothing. */
 static bool crosses(const struct walker *w, slow_real to)
 {
     return !w->way->crossing.reached && w->def->control > w->x && w->def->control <= to;
@@ -176,11 +176,11 @@ static void record_flight(struct walker *w, slow_real to)
     if (!crosses(w, to))
         return;
     const slow_real g = w->def->gravity, c = w->def->control, t = (c - w->x) / w->vx;
-    record(w, w->vx, w->vz - g * t, w->spin, w->z + t * (w->vz - g * t / 2) - ground(segment_at(w->def, c), c));
+    record(w, w->vx, w->vz - g * t, w->spin, w->z + t * (w->vz - g * t / 2) - ground(find_segment(w->def, c), c));
 }
 
-/* What u^2 gains over dx: the drop less the friction, shared with the rotation. Written so that it is positive going down
- * exactly where the segment is steeper than its friction. */
+/* Return the gain of u^2 over dx: the drop minus friction, shared with the rotation. It is positive downhill exactly if the
+ * segment is steeper than its friction. */
 static slow_real roll_gain(const struct walker *w, slow_real dx)
 {
     const slow_real net = (dx > 0 ? -w->at->slope : w->at->slope) - w->at->friction;
@@ -192,14 +192,14 @@ static void record_roll(struct walker *w, const struct roll *roll, slow_real to)
     if (!crosses(w, to))
         return;
     const slow_real u2 = roll->u2 + roll_gain(w, w->def->control - w->x);
-    const slow_real u = sqrt(not_below_0(u2)); /* rounding where it stands still right at the control */
+    const slow_real u = sqrt(not_below_0(u2)); /* rounding if the rock stops right at the control */
     record(w, u * w->at->turn.cosine, u * w->at->turn.sine, rolling_spin(w->def, u), 0);
 }
 
 /* ---- flight ---- */
 
-/* The later root of c + b t - g t^2 / 2. A concave function comes down through 0 at its later root only; at the
- * earlier one it would come up out of the ground. The square root is taken without cancellation. */
+/* Return the later root of c + b t - g t^2 / 2, without cancellation. A concave function falls through 0 only at its later
+ * root; at the earlier one the rock would leave the ground. */
 static slow_real later_root(slow_real c, slow_real b, slow_real g)
 {
     const slow_real root = sqrt(not_below_0(b * b + 2 * g * c));
@@ -207,52 +207,52 @@ static slow_real later_root(slow_real c, slow_real b, slow_real g)
     return q > 0 ? q / g : q < 0 ? -2 * c / q : 0;
 }
 
-/* Time at which the rock is over x; none for what lies behind it. */
-static slow_real time_at(const struct walker *w, slow_real x)
+/* Return the time at which the rock is over x; negative if x has been passed. */
+static slow_real compute_time(const struct walker *w, slow_real x)
 {
     return not_below_0((x - w->x) / w->vx);
 }
 
-/* Whether the flight goes into the ground between the two ends of a segment, and when. Its height above the segment is
- * c + b t - g t^2 / 2. On the segment that it starts from, c is 0 by definition: rounding must not bury the rock, and its height
- * above the end is exact for however short a flight. Exactly through the vertex is still clear, so that the segment ahead takes
- * it; a NaN is not clear. */
-static bool meets(const struct walker *w, const struct slow_segment *s, int direction, slow_real *time)
+/* True if the flight enters the ground between the two ends of a segment; *t is the time. Its height above the segment is c + b
+ * t - g t^2 / 2. On the segment of its start c is 0 by definition: rounding must not bury the rock, and its height above the
+ * end is exact for any flight length. A flight exactly through the vertex is clear, so that the next segment takes it; NaN is
+ * not clear. */
+static bool hits_segment(const struct walker *w, const struct slow_segment *s, int direction, slow_real *time)
 {
     const slow_real g = w->def->gravity, b = w->vz - s->slope * w->vx;
-    const slow_real t_out = time_at(w, exit_x(s, direction));
+    const slow_real t_out = compute_time(w, exit_x(s, direction));
     const bool starts = w->on_ground && s == w->at;
     const slow_real height =
         starts ? t_out * (b - g * t_out / 2) : w->z + t_out * (w->vz - g * t_out / 2) - exit_z(s, direction);
     if (height >= 0)
         return false;
-    *time = within(later_root(starts ? 0 : w->z - ground(s, w->x), b, g), time_at(w, exit_x(s, -direction)), t_out);
+    *time = clamp(later_root(starts ? 0 : w->z - ground(s, w->x), b, g), compute_time(w, exit_x(s, -direction)), t_out);
     return true;
 }
 
-/* The next contact: every segment from here to the end of the profile is tried, the earliest wins. */
+/* Return the earliest contact with all segments from here to the end of the profile. */
 static struct touch next_touch(const struct walker *w)
 {
-    const int direction = direction_of(w->vx);
-    if (direction == 0) { /* straight up and down */
+    const int direction = find_direction(w->vx);
+    if (direction == 0) { /* vertical flight */
         const slow_real c = w->on_ground ? 0 : not_below_0(w->z - ground(w->at, w->x));
         return (struct touch){w->at, not_below_0(later_root(c, w->vz, (slow_real)w->def->gravity)), w->x};
     }
     struct touch best = {.at = NULL};
     for (const struct slow_segment *s = w->at;; s += direction) {
         slow_real t = 0;
-        if (meets(w, s, direction, &t) && (!best.at || t < best.time))
-            best = (struct touch){s, t, within(w->x + w->vx * t, s->x0, s->x1)};
+        if (hits_segment(w, s, direction, &t) && (!best.at || t < best.time))
+            best = (struct touch){s, t, clamp(w->x + w->vx * t, s->x0, s->x1)};
         if (is_last(w->def, s, direction))
             return best;
     }
 }
 
-static enum todo fly(struct walker *w)
+static enum todo fly_to_contact(struct walker *w)
 {
     const slow_real g = w->def->gravity;
     if (!w->touch.at) {
-        const slow_real x = w->vx > 0 ? w->def->segments[w->def->count - 1].x1 : w->def->segments[0].x0, t = time_at(w, x);
+        const slow_real x = w->vx > 0 ? w->def->segments[w->def->count - 1].x1 : w->def->segments[0].x0, t = compute_time(w, x);
         record_flight(w, x);
         w->x = x;
         w->z += t * (w->vz - g * t / 2);
@@ -270,18 +270,16 @@ static enum todo fly(struct walker *w)
 
 /* ---- contact ---- */
 
-/* The facet that is met. */
+/* Return the facet that is hit. */
 static struct slow_turn facet(const struct walker *w)
 {
-    const slow_real u = w->def->uniform(w->def->context, w->way->contacts), most = w->at->theta_max;
-    const slow_real angle = w->def->facets == SLOW_BOTH  ? most * (2 * u - 1)
-                            : along(w, w->at->turn) >= 0 ? most * u
-                                                         : -most * u;
-    const struct slow_turn turned = turn_of(w->at->angle + angle);
-    return outward(w, turned) > 0 ? w->at->turn : turned; /* a rock cannot hit a face that it is moving away from */
+    const slow_real u = w->def->uniform(w->def->context, w->way->contacts), max = w->at->theta_max;
+    const slow_real angle = w->def->facets == SLOW_BOTH ? max * (2 * u - 1) : along(w, w->at->turn) >= 0 ? max * u : -max * u;
+    const struct slow_turn turned = facet_turn(w->at->angle + angle);
+    return outward(w, turned) > 0 ? w->at->turn : turned; /* a rock cannot hit a face from which it moves away */
 }
 
-/* CRSP's scaling of the tangential energy with the normal speed, with its limit where Rn = 0. */
+/* CRSP's scaling of the tangential energy with the normal speed; its limit if Rn = 0. */
 static slow_real scaling(slow_real vn, slow_real rn, slow_real rt)
 {
     if (rn > 0)
@@ -289,7 +287,7 @@ static slow_real scaling(slow_real vn, slow_real rn, slow_real rt)
     return vn > 0 ? 0 : rt;
 }
 
-/* The energy of translation along the facet and of rotation is reduced by f and SF; the rock leaves without slip. */
+/* Reduce the energy along the facet and of rotation by f and SF; the rock leaves without slip. */
 static slow_real crsp_tangential(const struct walker *w, slow_real vn, slow_real vt)
 {
     const slow_real rn = w->at->rn, rt = w->at->rt, k = inertia(w->def), rim = w->spin * (slow_real)w->def->radius;
@@ -298,28 +296,28 @@ static slow_real crsp_tangential(const struct walker *w, slow_real vn, slow_real
     return vt < 0 || (vt == 0 && w->spin < 0) ? -speed : speed;
 }
 
-/* Speed along the facet and speed of the rim after an impact. */
+/* Speed along the facet and of the rim after an impact. */
 struct tangential {
     slow_real speed, rim;
 };
 
-/* Limit the loss along the facet to `most`, which friction can take at this normal impulse. Mirror the impact first, so that
- * the rock comes in with a positive speed: friction then turns the spin forward while the rim is slower than the rock, and
+/* Limit the loss along the facet to `max`, the most that friction can take at this normal impulse. Mirror the impact first, so
+ * that the rock arrives with positive speed. Friction then turns the spin forward while the rim is slower than the rock, and
  * backward otherwise, until the rock rolls. */
-static struct tangential with_friction_bound(const struct walker *w, slow_real vt, struct tangential law, slow_real most)
+static struct tangential with_friction_bound(const struct walker *w, slow_real vt, struct tangential law, slow_real max)
 {
-    const slow_real mirror = vt < 0 ? -1 : 1, least = fabs(vt) - most;
-    if (!(fabs(law.speed) < least))
+    const slow_real mirror = vt < 0 ? -1 : 1, min = fabs(vt) - max;
+    if (!(fabs(law.speed) < min))
         return law;
     if (w->def->law != SLOW_CRSP)
-        return (struct tangential){mirror * least, 0};
-    const slow_real rim = mirror * w->spin * (slow_real)w->def->radius, change = most / inertia(w->def);
+        return (struct tangential){mirror * min, 0};
+    const slow_real rim = mirror * w->spin * (slow_real)w->def->radius, change = max / inertia(w->def);
     slow_real rolls = rim;
-    if (rim < least)
-        rolls = rim + change < least ? rim + change : least;
-    else if (rim > least)
-        rolls = rim - change > least ? rim - change : least;
-    return (struct tangential){mirror * least, mirror * rolls};
+    if (rim < min)
+        rolls = rim + change < min ? rim + change : min;
+    else if (rim > min)
+        rolls = rim - change > min ? rim - change : min;
+    return (struct tangential){mirror * min, mirror * rolls};
 }
 
 static void apply_law(struct walker *w, struct slow_turn a)
@@ -338,7 +336,7 @@ static void apply_law(struct walker *w, struct slow_turn a)
     w->spin = rolling_spin(def, out.rim);
 }
 
-/* A flight that stays within one radius, both along the ground and above the segment, is rolling; else it is flown. */
+/* A flight that stays within one radius, along the ground and above the segment, counts as rolling. */
 static enum todo roll_or_fly(struct walker *w)
 {
     const slow_real radius = w->def->radius, cosine = w->at->turn.cosine;
@@ -356,10 +354,10 @@ static enum todo contact(struct walker *w)
         return end(w, SLOW_UNFINISHED);
     const struct walker before = *w;
     apply_law(w, facet(w));
-    if (outward(w, w->at->turn) < 0) /* a facet turned away from the segment may send the rock into it */
+    if (outward(w, w->at->turn) < 0) /* a facet turned away from the segment may send the rock into the ground */
         set_velocity(w, w->at->turn, along(w, w->at->turn), 0);
     const enum todo next = roll_or_fly(w);
-    if (def->friction_bound && w->rolled && next == TODO_ROLL) { /* it keeps rolling: nothing struck it */
+    if (def->friction_bound && w->rolled && next == TODO_ROLL) { /* it continues rolling: there was no impact */
         w->vx = before.vx;
         w->vz = before.vz;
         w->spin = before.spin;
@@ -372,12 +370,12 @@ static enum todo contact(struct walker *w)
 
 /* ---- rolling ---- */
 
-/* The speed without slip that keeps the angular momentum about the point of contact. */
-static struct roll roll_of(const struct walker *w)
+/* Convert to the speed without slip that keeps the angular momentum about the contact point. */
+static struct roll start_roll(const struct walker *w)
 {
     const slow_real k = inertia(w->def), radius = w->def->radius;
     const slow_real u = (along(w, w->at->turn) + k * w->spin * radius) / (1 + k);
-    const int direction = direction_of(u);
+    const int direction = find_direction(u);
     return (struct roll){u * u, radius, direction != 0 ? direction : downhill(w->at)};
 }
 
@@ -394,15 +392,15 @@ static void move_on_segment(struct walker *w, slow_real x)
     w->z = ground(w->at, x);
 }
 
-/* The end of a piece at a vertex: leave the profile, lose the part of u into the ground, go over the edge along the
- * ground, or fly from it. */
+/* Pass a vertex at the end of a step: leave the profile, lose the part of u into the ground, follow the ground over the edge,
+ * or fly. */
 static enum todo pass_vertex(struct walker *w, struct roll *roll)
 {
     set_rolling_velocity(w, roll);
     if (is_last(w->def, w->at, roll->direction))
         return end(w, SLOW_LEFT);
     const struct slow_segment *ahead = w->at + roll->direction;
-    const slow_real turn = (ahead->angle - w->at->angle) * roll->direction; /* positive where the vertex is concave */
+    const slow_real turn = (ahead->angle - w->at->angle) * roll->direction; /* positive at a concave vertex */
     w->at = ahead;
     if (turn < 0)
         return roll_or_fly(w);
@@ -410,15 +408,15 @@ static enum todo pass_vertex(struct walker *w, struct roll *roll)
     return TODO_ROLL;
 }
 
-/* One piece of a roll, as far as the vertex ahead or the end of its length. A rock on the vertex itself has no piece
- * before it in which it could stand still. */
+/* Roll to the next vertex or to the end of the length. A rock on the vertex itself has no step before it in which it could
+ * stop. */
 static enum todo roll_piece(struct walker *w, struct roll *roll)
 {
     const slow_real x_vertex = exit_x(w->at, roll->direction), length = fabs(x_vertex - w->x) / w->at->turn.cosine;
     const bool ends = roll->left <= length;
     const slow_real to = roll->left < length ? w->x + roll->direction * roll->left * w->at->turn.cosine : x_vertex;
     const slow_real u2_end = roll->u2 + roll_gain(w, to - w->x);
-    if (to != w->x && !(u2_end > 0)) { /* u^2 is linear in x: where it is used up is a matter of proportion */
+    if (to != w->x && !(u2_end > 0)) { /* u^2 is linear in x: interpolate its zero */
         const slow_real x = w->x + (to - w->x) * (roll->u2 > 0 ? roll->u2 / (roll->u2 - u2_end) : 0);
         record_roll(w, roll, x);
         move_on_segment(w, x);
@@ -438,8 +436,8 @@ static enum todo roll_piece(struct walker *w, struct roll *roll)
 
 /* ---- standing still ---- */
 
-/* Goes on from *s while the ground does `falls` (falls: strictly down, else exactly level); *s becomes the first
- * segment that does not. False where the profile ends before. */
+/* Continue from *s while the ground does `falls` (falls: strictly down, else exactly level); *s becomes the first segment that
+ * does not. False at the end of the profile. */
 static bool follow(const struct slow_def *def, const struct slow_segment **s, int direction, bool falls)
 {
     for (;; *s += direction) {
@@ -451,8 +449,8 @@ static bool follow(const struct slow_def *def, const struct slow_segment **s, in
     }
 }
 
-/* Whether the ground from a segment on rises to z before it falls again. */
-static bool rises_to(const struct slow_def *def, const struct slow_segment *s, int direction, slow_real z)
+/* True if the ground from a segment on rises to z before it falls again. */
+static bool rises_to_height(const struct slow_def *def, const struct slow_segment *s, int direction, slow_real z)
 {
     for (;; s += direction) {
         if (direction * (s->z1 - s->z0) < 0)
@@ -464,8 +462,8 @@ static bool rises_to(const struct slow_def *def, const struct slow_segment *s, i
     }
 }
 
-/* Without this a rock would rock in a pit for ever. The bottom is where the ground stops falling: a concave vertex, or
- * a level stretch shorter than the radius; a rock held by friction on either side is no business of the pit. */
+/* Without this a rock would swing in a pit for ever. The bottom is a concave vertex, or a level stretch shorter than the
+ * radius. A rock held by friction on either side is not in a pit. */
 static bool stands_in_pit(const struct walker *w)
 {
     const struct slow_def *def = w->def;
@@ -479,30 +477,29 @@ static bool stands_in_pit(const struct walker *w)
     if (!follow(def, &beyond, direction, false))
         return false;
     return ground_length(def, bottom, exit_x(beyond, -direction)) < radius && ground_length(def, w->x, bottom) < radius &&
-           steeper_than_friction(before) && steeper_than_friction(beyond) && rises_to(def, beyond, direction, w->z);
+           steeper_than_friction(before) && steeper_than_friction(beyond) && rises_to_height(def, beyond, direction, w->z);
 }
 
-static bool rests(const struct walker *w)
+static bool is_at_rest(const struct walker *w)
 {
     return !steeper_than_friction(w->at) || stands_in_pit(w);
 }
 
 static enum todo stand(struct walker *w)
 {
-    if (rests(w))
+    if (is_at_rest(w))
         return end(w, SLOW_REST);
     if (w->way->contacts >= w->def->max_contacts)
         return end(w, SLOW_UNFINISHED);
-    w->way->contacts++; /* the new roll from rest, so that no way can go on without being counted */
+    w->way->contacts++; /* the new roll from rest, so that no trajectory continues uncounted */
     return TODO_ROLL;
 }
 
-/* A contact that leaves no speed at all leaves a rock that may rest where it is; if not, it goes on with the roll of
- * that contact. */
+/* A rock without speed after a contact may rest at its place; otherwise it continues with the roll of that contact. */
 static enum todo roll(struct walker *w)
 {
-    struct roll now = roll_of(w);
-    if (now.u2 == 0 && rests(w))
+    struct roll now = start_roll(w);
+    if (now.u2 == 0 && is_at_rest(w))
         return end(w, SLOW_REST);
     enum todo next;
     do
@@ -511,13 +508,13 @@ static enum todo roll(struct walker *w)
     return next;
 }
 
-/* ---- the way ---- */
+/* ---- trajectory ---- */
 
 static enum todo release(struct walker *w)
 {
-    w->at = segment_at(w->def, w->x);
+    w->at = find_segment(w->def, w->x);
     const slow_real under = ground(w->at, w->x);
-    w->on_ground = !(w->z > under) || (double)w->z == (double)under; /* the caller has only doubles to say so */
+    w->on_ground = !(w->z > under) || (double)w->z == (double)under; /* the caller's heights are doubles */
     if (w->on_ground)
         w->z = under;
     if (w->on_ground && outward(w, w->at->turn) <= 0)
@@ -529,7 +526,7 @@ static enum todo release(struct walker *w)
 struct slow_way slow_walk(const struct slow_def *def)
 {
     static enum todo (*const steps[])(struct walker *) = {
-        [TODO_CONTACT] = contact, [TODO_FLIGHT] = fly, [TODO_ROLL] = roll, [TODO_STAND] = stand};
+        [TODO_CONTACT] = contact, [TODO_FLIGHT] = fly_to_contact, [TODO_ROLL] = roll, [TODO_STAND] = stand};
     struct slow_way way = {.contacts = 0};
     struct walker w = {.def = def, .way = &way, .x = def->x0, .z = def->z0, .vx = def->vx0, .vz = def->vz0};
     w.spin = def->law == SLOW_CRSP ? (slow_real)def->spin0 : 0;

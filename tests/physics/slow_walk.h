@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A rock's way down a polyline as a rockfall program is usually written: at each contact every segment ahead is tried and the
- * earliest hit kept, and angles go through libm. It shares no code with the program. In long double it is the reference that
- * the fast walk is compared with; the benches, which measure the fast walk's speed against it, define SLOW_REAL as double
- * (tests/bench/plain_walk.h). SI units, angles in radians. */
+/* A rock's trajectory on a polyline as rockfall programs usually compute it: each contact tries every segment ahead and keeps
+ * the earliest hit, and angles use libm. It shares no code with the program. In long double it is the reference for the fast
+ * walk. The benches, which measure the fast walk's speed against it, define SLOW_REAL as double (tests/bench/plain_walk.h). SI
+ * units, angles in radians. */
 #ifndef SLOW_WALK_H
 #define SLOW_WALK_H
 
@@ -25,14 +25,13 @@ struct slow_turn {
 };
 
 struct slow_segment {
-    slow_real x0, z0, x1, z1; /* its ends, x0 < x1 */
-    slow_real slope, angle;   /* dz/dx and its angle: these are set by slow_segment_between() */
-    struct slow_turn turn;    /* of the angle */
+    slow_real x0, z0, x1, z1; /* ends, x0 < x1 */
+    slow_real slope, angle;   /* dz/dx and its angle, set by slow_segment_between() */
+    struct slow_turn turn;    /* direction of the angle */
     slow_real rn, rt, friction, theta_max;
 };
 
-/* The first crossing of a control going +x: velocity and spin as the rock comes in, and its clearance above the
- * polyline. */
+/* The first crossing of a control in +x: velocity and spin before the contact, and clearance above the polyline. */
 struct slow_crossing {
     bool reached;
     double vx, vz, spin, height;
@@ -43,19 +42,19 @@ struct slow_def {
     const struct slow_segment *segments;
     enum slow_law law;
     enum slow_facets facets;
-    bool scale_rn;                                      /* lumped only: Rn falls with the normal speed */
+    bool scale_rn;                                      /* lumped only: Rn decreases with the normal speed */
     bool friction_bound;                                /* false: the published laws and rolling of CRSP */
-    double gravity, radius, k;                          /* k = I / (M R^2), ignored by the lumped law */
-    double x0, z0, vx0, vz0, spin0;                     /* the release, on or above the ground */
-    double (*uniform)(void *context, uint64_t contact); /* the facet draw of contact number `contact`, from 0 */
+    double gravity, radius, k;                          /* k = I / (M R^2), unused by the lumped law */
+    double x0, z0, vx0, vz0, spin0;                     /* the release, on or above ground */
+    double (*uniform)(void *context, uint64_t contact); /* facet draw of contact number `contact`, from 0 */
     void *context;
-    uint64_t max_contacts; /* a rock that would need one more is unfinished */
+    uint64_t max_contacts; /* a rock that needs more is unfinished */
     double control;        /* its x; NaN: none */
     /* Called after each contact law with the outgoing state, before any rolling; may be NULL. */
     void (*on_contact)(void *context, double x, double z, double vx, double vz, double spin);
 };
 
-/* Where and how the way ended. */
+/* End of the trajectory. */
 struct slow_way {
     enum slow_end end;
     double x, z;

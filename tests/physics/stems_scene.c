@@ -126,7 +126,7 @@ static int by_number(const void *a, const void *b)
     return (*p > *q) - (*p < *q);
 }
 
-size_t different(bool shoots_only)
+size_t count_different(bool shoots_only)
 {
     static uint64_t numbers[STEMS_MAX];
     size_t n = 0, found = 0;
@@ -143,13 +143,13 @@ struct met meet(uint64_t rocks, double metres)
 {
     struct met m = {0};
     for (SWEEP(rock, rocks)) {
-        size_t both = different(false);
+        size_t both = count_different(false);
         if (sweep.way.stems_hit != sweep.count || sweep.way.stools_met != both || sweep.way.end != CEDUO_LEFT_SLOPE ||
             sweep.way.stems_drawn < sweep.count)
             fail_msg("rock %ju: its way's counts are not those of the stems on it", (uintmax_t)rock);
         spread_add(&m.stems, (double)sweep.count / metres);
         spread_add(&m.both, (double)both / metres);
-        double stools = (double)different(true) / metres;
+        double stools = (double)count_different(true) / metres;
         spread_add(&m.stools, stools);
         spread_add(&m.sum, (double)sweep.count / metres + stools);
     }

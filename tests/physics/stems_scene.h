@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Level ground to sweep, forests to plant on it, and what rocks meet there. */
+/* Level ground, forests on it, and the stems that rocks meet there. */
 #ifndef STEMS_SCENE_H
 #define STEMS_SCENE_H
 
@@ -10,12 +10,12 @@
 #include "runs.h"
 #include "sample.h"
 
-#define B PAPER_B /* m, mean diameter of the rock of all sweeps */
+#define B PAPER_B /* m, mean diameter of the rock in all sweeps */
 
 /* ---- a plane to sweep ---- */
 
-/* Level ground over which a rock flies so fast and low, among stems so tall and light, that its way is a straight line.
- * It points into itself. */
+/* Level ground, and a rock so fast and low, among stems so tall and light, that its trajectory is a straight line. Contains
+ * pointers into itself: never copy it. */
 #define KINDS_MAX 3
 struct plane {
     struct line_scene line;
@@ -26,18 +26,18 @@ struct plane {
 extern struct plane plane;
 
 void clear_ground(size_t vertices, const double *x, const double *z, double rn, double friction);
-/* Without a forest yet. The rock starts at x = 0 and falls 5 cm on its way. */
+/* Clear the forest. The rock starts at x = 0 and falls 5 cm over the length. */
 void clear_plane(double length);
 struct ceduo_belt *plant_belt(double from, double to, double stools, double spacing);
 struct ceduo_stems *plant_shoots(struct ceduo_belt *belt, double per_ha, double dbh);
 struct ceduo_stems *plant_trees(struct ceduo_belt *belt, double per_ha, double dbh);
-/* A plot of the paper's Table 1, its stems tall and light. */
+/* Plant a plot of the paper's Table 1, with tall and light stems. */
 void plant_plot(int number, double from, double to);
 
-/* Things of which so many stand on a hectare, met by a strip of such a width: per metre. */
+/* Return how many of per_ha objects on a hectare a strip of this width meets, per metre. */
 double per_metre(double per_ha, double width);
 
-/* ---- sweeping it ---- */
+/* ---- sweep ---- */
 
 #define STEMS_MAX 4096
 struct sweep {
@@ -55,23 +55,24 @@ void sweep_end(void);
 void sweep_watched(uint64_t rock, const struct ceduo_trajectory_callbacks *watch);
 void sweep_rock(uint64_t rock);
 void sweep_one(uint64_t rock);
-/* for (SWEEP(rock, 5000)): rocks 0 to 4999, each of which has been swept; not to be left early. */
+/* for (SWEEP(rock, 5000)): sweep rocks 0 to 4999; do not leave the loop early. */
 #define SWEEP(rock, rocks)                                                                                                     \
     uint64_t rock = (sweep_begin(), 0);                                                                                        \
     sweep_next(rock, rocks);                                                                                                   \
     rock++
 bool sweep_next(uint64_t rock, uint64_t rocks);
 
-/* Different numbers among the stems that were hit, all or of shoots only. */
-size_t different(bool shoots_only);
+/* Count different numbers among the hit stems, all or only shoots. */
+size_t count_different(bool shoots_only);
 
-/* What rocks meet of the forest that was planted, per metre of it. */
+/* Stems and stools that rocks met in the planted forest, per metre. */
 struct met {
     struct spread stems, both, stools; /* stools and trees; stools alone */
     struct spread sum;                 /* stems and stools, for their covariance */
 };
 
-/* The share of the largest energy by eccentricity as Dorren et al. 2006 print it, cut to 0…1, and its mean by Simpson's rule. */
+/* Share of the largest energy by eccentricity as printed by Dorren et al. 2006, clamped to 0…1, and its mean by Simpson's
+ * rule. */
 double printed_share(double u);
 double mean_printed_share(void);
 

@@ -39,7 +39,7 @@ static inline double stops_distance(const struct ceduo_observation *seen, double
     for (size_t i = 0; i < seen->n; i++) {
         while (below < n && simulated[below] < values[i])
             below++;
-        double share = (double)below / (double)n, of = (double)seen->released;
+        double share = (double)below / (double)n, of = (double)seen->released_count;
         most = fmax(most, fmax(fabs(share - (double)i / of), fabs(share - (double)(i + 1) / of)));
     }
     free(values);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The blow of a rock that is not round: closed forms, and another calculation that follows the impulse in small steps. */
+/* The impact of a rock that is not round: closed forms, and a calculation that follows the impulse in small steps. */
 #include "expect.h"
 
 #include <gsl/gsl_integration.h>
@@ -13,13 +13,13 @@
 #define STEPPED 1500
 #define ROCKS   20000
 
-/* A blow in plain units: half-axes and R, turn of the section, ground, and what comes in. */
+/* An impact in plain units: half-axes and R, rotation of the section, ground, and incoming motion. */
 struct blow {
     double a, b, radius, turn, e, mu, friction;
     struct impact in;
 };
 
-static struct impact struck(const struct blow *c)
+static struct impact apply_impact(const struct blow *c)
 {
     double k2 = (c->a * c->a + c->b * c->b) / 5, gyration = sqrt(k2);
     struct ground_point at = {
@@ -32,7 +32,7 @@ static struct impact struck(const struct blow *c)
     return law_arm.struck(c->in, &at);
 }
 
-static double energy_of(const struct blow *c, struct impact v)
+static double compute_energy(const struct blow *c, struct impact v)
 {
     double k2 = (c->a * c->a + c->b * c->b) / 5;
     return v.vn * v.vn + v.vt * v.vt + k2 * v.spin * v.spin;
@@ -45,7 +45,7 @@ static struct blow random_blow(struct line_random *r)
     bool high = line_chance(r, 0.5);
     return (struct blow){.a = high ? b : a,
                          .b = high ? a : b,
-                         .radius = radius * line_uniform(r, 0.8, 1.2), /* other pairs of axes count, too */
+                         .radius = radius * line_uniform(r, 0.8, 1.2), /* other pairs of axes count as well */
                          .turn = line_uniform(r, -M_PI / 2, M_PI / 2),
                          .e = line_chance(r, 0.1)   ? 0
                               : line_chance(r, 0.1) ? 1
@@ -66,24 +66,24 @@ TEST(a_round_rock_that_sticks)
         double radius = line_log_uniform(&r, 0.05, 2), vn = line_uniform(&r, 1, 20), e = line_uniform(&r, 0, 1);
         double vt = line_uniform(&r, -1, 1) * vn, spin = line_uniform(&r, -1, 1) * vn / radius, k = 0.4;
         struct blow c = {radius, radius, radius, line_uniform(&r, -1.5, 1.5), e, 3, 0, {vn, vt, spin}};
-        struct impact out = struck(&c);
+        struct impact out = apply_impact(&c);
         double along = (vt + k * spin * radius) / (1 + k);
         ROWS(EXPECT_NEAR, (out.vt, along, 1e-14 * vn), (out.spin * radius, along, 1e-14 * vn), (out.vn, e * vn, 1e-14 * vn));
         c.in.vt = -vt;
         c.in.spin = -spin;
         c.turn = -c.turn;
-        struct impact mirror = struck(&c);
+        struct impact mirror = apply_impact(&c);
         EXPECT_IS(mirror, (vt, -out.vt), (spin, -out.spin));
         EXPECT(mirror.vn, ==, out.vn);
     }
 }
 
-/* Arm and speed of the point of contact in plain units; spin is positive rolling forward. */
+/* Arm and speed of the contact point in plain units; positive spin rolls forward. */
 struct point {
     double r, h, k2, un, ut;
 };
 
-static struct point point_of(const struct blow *c, struct impact v, double vn)
+static struct point contact_point(const struct blow *c, struct impact v, double vn)
 {
     struct point p = {.k2 = (c->a * c->a + c->b * c->b) / 5};
     p.h = sqrt(c->a * c->a * sin(c->turn) * sin(c->turn) + c->b * c->b * cos(c->turn) * cos(c->turn));
@@ -103,17 +103,17 @@ TEST(without_friction_only_the_normal_impulse_acts)
     for (int i = 0; i < 10000; i++) {
         struct blow c = random_blow(&r);
         c.mu = c.friction = 0;
-        struct impact out = struck(&c);
-        struct point p = point_of(&c, c.in, -c.in.vn);
-        double impulse = -(1 + c.e) * p.un / (1 + p.r * p.r / p.k2), size = sqrt(energy_of(&c, c.in)) * 1e-14;
-        EXPECT_NEAR(out.vn, fmax(0, -c.in.vn + impulse), size); /* a second blow stops the centre */
+        struct impact out = apply_impact(&c);
+        struct point p = contact_point(&c, c.in, -c.in.vn);
+        double impulse = -(1 + c.e) * p.un / (1 + p.r * p.r / p.k2), size = sqrt(compute_energy(&c, c.in)) * 1e-14;
+        EXPECT_NEAR(out.vn, fmax(0, -c.in.vn + impulse), size); /* a second impact stops the centre */
         EXPECT_NEAR(out.vt, c.in.vt, size);
         EXPECT_NEAR(out.spin * sqrt(p.k2), (c.in.spin - p.r * impulse / p.k2) * sqrt(p.k2), size);
     }
 }
 
-/* A round rock that slips freely: rolling friction is a moment impulse of at most friction R times the normal impulse, against
- * the spin, which it never turns round. */
+/* A round rock that slips freely: the moment impulse of rolling friction is at most friction R times the normal impulse. It
+ * acts against the spin and never reverses it. */
 TEST(rolling_friction_takes_spin)
 {
     struct line_random r = {.state = 3};
@@ -122,17 +122,17 @@ TEST(rolling_friction_takes_spin)
         double radius = line_log_uniform(&r, 0.05, 2), vn = line_uniform(&r, 1, 20), e = line_uniform(&r, 0, 1);
         double spin = line_uniform(&r, -5, 5) * vn / radius, friction = line_uniform(&r, 0, 1);
         struct blow c = {radius, radius, radius, line_uniform(&r, -1.5, 1.5), e, 0, friction, {vn, vn, spin}};
-        struct impact out = struck(&c);
-        double most = friction * radius * (1 + e) * vn / (0.4 * radius * radius), left = fmax(fabs(spin) - most, 0);
-        EXPECT_NEAR(out.spin * radius, copysign(left, spin) * radius, 1e-13 * vn);
+        struct impact out = apply_impact(&c);
+        double max = friction * radius * (1 + e) * vn / (0.4 * radius * radius), rest = fmax(fabs(spin) - max, 0);
+        EXPECT_NEAR(out.spin * radius, copysign(rest, spin) * radius, 1e-13 * vn);
         EXPECT_NEAR(out.vt, vn, 1e-14 * vn);
-        held += left == 0;
+        held += rest == 0;
     }
     EXPECT(held, >, 1000);
     EXPECT(held, <, 9000);
 }
 
-TEST(without_bounce_a_point_that_sticks_stands_still)
+TEST(a_sticking_point_without_bounce_stops)
 {
     struct line_random r = {.state = 3};
     int still = 0;
@@ -143,10 +143,10 @@ TEST(without_bounce_a_point_that_sticks_stands_still)
         c.in.vn = 10;
         c.in.vt = line_uniform(&r, -10, 10);
         c.in.spin = line_uniform(&r, -5, 5) / c.radius;
-        struct impact out = struck(&c);
-        struct point p = point_of(&c, out, out.vn);
+        struct impact out = apply_impact(&c);
+        struct point p = contact_point(&c, out, out.vn);
         if (out.vn == 0)
-            continue; /* the centre still went down: there was a second blow, beside the first */
+            continue; /* the centre still moved down: there was a second impact */
         EXPECT_NEAR(p.un, 0, 1e-13);
         EXPECT_NEAR(p.ut, 0, 1e-13);
         still++;
@@ -154,27 +154,27 @@ TEST(without_bounce_a_point_that_sticks_stands_still)
     EXPECT(still, >, 500);
 }
 
-/* A round rock that does not bounce comes down again and again with what a short time of free fall gives it. Where both
- * frictions hold, a blow keeps 1/(1 + k) of its speed and no spin, so that it has never more than 1/k of what one fall adds:
- * however short that is, it stands. Steeper, it goes ever faster. */
-TEST(a_rock_stands_where_both_frictions_hold_it)
+/* A round rock without bounce lands again and again after a short free fall. If both frictions hold, an impact keeps 1/(1 + k)
+ * of its speed and no spin: its speed stays below 1/k of the gain in one fall. It stops however short the fall; on steeper
+ * ground it accelerates. */
+TEST(a_rock_stops_if_both_frictions_hold_it)
 {
     struct line_random r = {.state = 4};
     for (int i = 0; i < 2000; i++) {
         struct blow c = random_blow(&r);
         c.a = c.b = c.radius;
         c.e = 0;
-        double least = fmin(c.mu, c.friction), slope = line_uniform(&r, 0, 3), vt = 0, spin = 0;
-        if (fabs(slope - least) < 0.01)
+        double min = fmin(c.mu, c.friction), slope = line_uniform(&r, 0, 3), vt = 0, spin = 0;
+        if (fabs(slope - min) < 0.01)
             continue;
         for (int n = 0; n < 2000; n++) {
             c.in = (struct impact){.vn = 1, .vt = vt + slope, .spin = spin};
-            struct impact out = struck(&c);
+            struct impact out = apply_impact(&c);
             EXPECT(out.vn, ==, 0);
             vt = out.vt;
             spin = out.spin;
         }
-        if (slope < least)
+        if (slope < min)
             EXPECT(vt, <=, 2.5 * slope * (1 + 1e-12));
         else
             EXPECT(vt, >, 2);
@@ -183,40 +183,40 @@ TEST(a_rock_stands_where_both_frictions_hold_it)
 
 /* ---- energy ---- */
 
-TEST(no_blow_gains_energy)
+TEST(no_arm_impact_gains_energy)
 {
     struct line_random r = {.state = 5};
     for (int i = 0; i < BLOWS; i++) {
         struct blow c = random_blow(&r);
-        struct impact out = struck(&c);
+        struct impact out = apply_impact(&c);
         EXPECT(out.vn, >=, 0);
-        EXPECT(energy_of(&c, out), <=, energy_of(&c, c.in) * (1 + 1e-13));
+        EXPECT(compute_energy(&c, out), <=, compute_energy(&c, c.in) * (1 + 1e-13));
     }
 }
 
-/* ---- another calculation ---- */
+/* ---- numerical integration ---- */
 
-/* Follows a blow in small steps of the normal impulse, each shortened where the slip ends or the normal speed turns. With
- * `newton` restitution is by speed, otherwise by work. */
+/* Follow an impact in small steps of the normal impulse. A step is shortened if the slip ends or the normal speed reverses.
+ * With `newton` restitution is by speed, otherwise by work. */
 struct stepper {
     long double vt, vn, spin, r, h, k2, mu;
     long double impulse, work, compression;
 };
 
-static long double un_of(const struct stepper *s)
+static long double normal_speed(const struct stepper *s)
 {
     return s->vn - s->spin * s->r;
 }
 
-static long double ut_of(const struct stepper *s)
+static long double slip_speed(const struct stepper *s)
 {
     return s->vt - s->spin * s->h;
 }
 
-/* Friction per normal impulse. */
-static long double friction_of(const struct stepper *s)
+/* Return the friction per normal impulse. */
+static long double compute_friction(const struct stepper *s)
 {
-    long double nt = s->r * s->h / s->k2, tt = 1 + s->h * s->h / s->k2, ut = ut_of(s);
+    long double nt = s->r * s->h / s->k2, tt = 1 + s->h * s->h / s->k2, ut = slip_speed(s);
     if (fabsl(ut) > 1e-15L)
         return ut > 0 ? -s->mu : s->mu;
     return fmaxl(-s->mu, fminl(s->mu, -nt / tt));
@@ -224,69 +224,69 @@ static long double friction_of(const struct stepper *s)
 
 static void step(struct stepper *s, long double dp, long double friction)
 {
-    long double before = un_of(s);
+    long double before = normal_speed(s);
     s->vn += dp;
     s->vt += friction * dp;
     s->spin -= (s->r * dp + s->h * friction * dp) / s->k2;
-    s->work += (before + un_of(s)) / 2 * dp;
+    s->work += (before + normal_speed(s)) / 2 * dp;
     s->impulse += dp;
 }
 
-/* The largest step from here on which friction stays as it is. */
+/* Return the largest step with constant friction. */
 static long double until_slip_ends(const struct stepper *s, long double friction, long double dp)
 {
-    long double ut = ut_of(s);
-    struct stepper then = *s;
-    step(&then, dp, friction);
-    if (fabsl(ut) > 1e-15L && ut * ut_of(&then) < 0)
-        return dp * ut / (ut - ut_of(&then));
+    long double ut = slip_speed(s);
+    struct stepper next = *s;
+    step(&next, dp, friction);
+    if (fabsl(ut) > 1e-15L && ut * slip_speed(&next) < 0)
+        return dp * ut / (ut - slip_speed(&next));
     return dp;
 }
 
 static void follow(struct stepper *s, long double e, bool newton)
 {
-    long double start = un_of(s), dp = fmaxl(fabsl(start), fabsl(ut_of(s))) / 500;
+    long double start = normal_speed(s), dp = fmaxl(fabsl(start), fabsl(slip_speed(s))) / 500;
     bool restores = false;
     while (start < 0) {
-        long double friction = friction_of(s), d = until_slip_ends(s, friction, dp), un = un_of(s);
-        struct stepper then = *s;
-        step(&then, d, friction);
-        if (!restores && un < 0 && un_of(&then) >= 0) {
-            step(s, d * un / (un - un_of(&then)), friction);
+        long double friction = compute_friction(s), d = until_slip_ends(s, friction, dp), un = normal_speed(s);
+        struct stepper next = *s;
+        step(&next, d, friction);
+        if (!restores && un < 0 && normal_speed(&next) >= 0) {
+            step(s, d * un / (un - normal_speed(&next)), friction);
             s->compression = s->work;
             restores = true;
             if (e == 0)
                 return;
             continue;
         }
-        bool over = newton ? un_of(&then) >= -e * start : then.work >= s->compression * (1 - e * e);
-        if (restores && over) {
+        bool done = newton ? normal_speed(&next) >= -e * start : next.work >= s->compression * (1 - e * e);
+        if (restores && done) {
             long double lo = 0, hi = d;
             for (int i = 0; i < 60; i++) {
                 long double middle = (lo + hi) / 2;
-                then = *s;
-                step(&then, middle, friction);
-                bool far = newton ? un_of(&then) >= -e * start : then.work >= s->compression * (1 - e * e);
+                next = *s;
+                step(&next, middle, friction);
+                bool far = newton ? normal_speed(&next) >= -e * start : next.work >= s->compression * (1 - e * e);
                 *(far ? &hi : &lo) = middle;
             }
             step(s, hi, friction);
             return;
         }
-        *s = then;
-        if (fabsl(ut_of(s)) < 1e-15L) /* exactly, so that it sticks */
-            s->vt -= ut_of(s);
+        *s = next;
+        if (fabsl(slip_speed(s)) < 1e-15L) /* exactly 0, so that it sticks */
+            s->vt -= slip_speed(s);
     }
 }
 
-/* The impulses along the ground and the moment, within bounds, that leave the least energy: one at a time, many times. */
-static void settle(struct stepper *s, long double h, long double lo, long double hi, long double most)
+/* Minimise the energy by the impulses along the ground and the moment, within bounds: one at a time, many times. */
+static void minimise_energy(struct stepper *s, long double h, long double lo, long double hi, long double max)
 {
     long double along = 0, moment = 0, vt = s->vt, spin = -s->spin;
     for (int i = 0; i < 20000; i++) {
         long double last = along;
         long double free = -(vt + h * (spin + moment / s->k2)) / (1 + h * h / s->k2);
         along = fmaxl(lo, fminl(hi, free));
-        moment = fmaxl(-most, fminl(most, -(s->k2 * spin + h * along)));
+        moment = fmaxl(-max, fminl(max, -(s->k2 * spin + h * along)));
         if (i > 10 && fabsl(along - last) < 1e-17L)
             break;
     }
@@ -294,38 +294,38 @@ static void settle(struct stepper *s, long double h, long double lo, long double
     s->spin = -(spin + (h * along + moment) / s->k2);
 }
 
-static struct stepper stepper_of(const struct blow *c)
+static struct stepper make_stepper(const struct blow *c)
 {
-    struct point p = point_of(c, c->in, -c->in.vn);
+    struct point p = contact_point(c, c->in, -c->in.vn);
     return (struct stepper){.vt = c->in.vt, .vn = -c->in.vn, .spin = c->in.spin, .r = p.r, .h = p.h, .k2 = p.k2, .mu = c->mu};
 }
 
-static struct stepper stepped(const struct blow *c)
+static struct stepper integrate_impact(const struct blow *c)
 {
-    struct stepper s = stepper_of(c);
+    struct stepper s = make_stepper(c);
     follow(&s, c->e, false);
-    settle(&s, s.h, 0, 0, c->friction * c->radius * s.impulse);
+    minimise_energy(&s, s.h, 0, 0, c->friction * c->radius * s.impulse);
     long double down = fmaxl(0, -s.vn);
     s.vn += down;
     if (down > 0)
-        settle(&s, c->radius, -s.mu * down, s.mu * down, c->friction * c->radius * down);
+        minimise_energy(&s, c->radius, -s.mu * down, s.mu * down, c->friction * c->radius * down);
     return s;
 }
 
-TEST(blows_are_as_followed_in_small_steps)
+TEST(impacts_equal_integration_in_small_steps)
 {
     struct line_random r = {.state = 6};
     for (int i = 0; i < STEPPED; i++) {
         struct blow c = random_blow(&r);
-        struct impact out = struck(&c);
-        struct stepper s = stepped(&c);
-        double size = sqrt(energy_of(&c, c.in)) * 1e-8;
+        struct impact out = apply_impact(&c);
+        struct stepper s = integrate_impact(&c);
+        double size = sqrt(compute_energy(&c, c.in)) * 1e-8;
         ROWS(EXPECT_NEAR, (out.vn, (double)s.vn, size), (out.vt, (double)s.vt, size),
              (out.spin * c.radius, (double)s.spin * c.radius, size));
     }
 }
 
-/* Where the slip turns, restitution by speed may return more than came in (Kane's paradox); by work it does not. */
+/* If the slip reverses, restitution by speed may return more energy than came in (Kane's paradox); by work it never does. */
 TEST(restitution_by_speed_would_gain_energy)
 {
     struct line_random r = {.state = 7};
@@ -334,20 +334,20 @@ TEST(restitution_by_speed_would_gain_energy)
         struct blow c = random_blow(&r);
         c.friction = 0;
         c.e = 0.95;
-        struct stepper s = stepper_of(&c);
+        struct stepper s = make_stepper(&c);
         follow(&s, c.e, true);
-        double k2 = (double)s.k2, before = energy_of(&c, c.in);
+        double k2 = (double)s.k2, before = compute_energy(&c, c.in);
         double after = (double)(s.vn * s.vn + s.vt * s.vt + s.k2 * s.spin * s.spin);
         if (!(after > before * (1 + 1e-9)) || !(k2 > 0))
             continue;
         gains++;
-        EXPECT(energy_of(&c, struck(&c)), <=, before * (1 + 1e-13));
+        EXPECT(compute_energy(&c, apply_impact(&c)), <=, before * (1 + 1e-13));
     }
     EXPECT(gains, >, 0);
     print_message("%d of %d blows would gain energy\n", gains, STEPPED);
 }
 
-/* ---- on the way ---- */
+/* ---- trajectories ---- */
 
 struct drop {
     struct blow blow;
@@ -358,10 +358,10 @@ static double speed_off(double turn, void *context)
 {
     struct blow c = *(const struct blow *)context;
     c.turn = turn;
-    return struck(&c).vn;
+    return apply_impact(&c).vn;
 }
 
-/* Mean over the pairs of axes and over all turns. */
+/* Return the mean over the pairs of axes and all rotations. */
 static double mean_speed_off(const struct drop *d)
 {
     gsl_integration_workspace *space = gsl_integration_workspace_alloc(1000);
@@ -379,8 +379,8 @@ static double mean_speed_off(const struct drop *d)
     return sum;
 }
 
-/* A long rock that falls on the flat, all but without weight, so that a slow one still flies off. */
-TEST(speed_after_a_blow_is_the_mean_over_all_turns)
+/* A long rock that falls on level ground, almost weightless, so that a slow one still flies off. */
+TEST(speed_after_an_impact_is_the_mean_over_all_rotations)
 {
     static struct line_scene s;
     static struct line_way way;

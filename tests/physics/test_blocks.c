@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blocks of other sizes: how a rock is scaled, which sizes are shown in which order, and that they fly with the mass
- * that is shown. */
+/* Blocks of other sizes: how a rock is scaled, the order of the sizes shown, and their mass in flight. */
 #include "expect.h"
 #include "local.h"
 
@@ -13,7 +12,7 @@
 #define LIMESTONE    2600.0
 #define BLOCKS_FLOWN 5
 
-static const double volumes[] = {.05, .2, 1, 5}; /* of the classes of NaiS, and 1 m3 */
+static const double volumes[] = {.05, .2, 1, 5}; /* classes of NaiS, and 1 m3 */
 
 static void expect_near(const char *what, double found, double wanted)
 {
@@ -34,7 +33,7 @@ static void expect_scaled(const char *what, struct ceduo_number found, struct ce
         fail_msg("%s: %g ± %g, not %g times %g ± %g", what, found.mean, found.spread, factor, was.mean, was.spread);
 }
 
-/* A spread grows with what it is the spread of, so that of the density does not. */
+/* A standard deviation scales with its mean, so the density's does not change. */
 TEST(a_rock_twice_as_long_is_eight_times_as_heavy)
 {
     const struct ceduo_rock_def was = {.shape = CEDUO_BLOCK,
@@ -44,18 +43,18 @@ TEST(a_rock_twice_as_long_is_eight_times_as_heavy)
                                        .mass = number(640, 64),
                                        .density = number(LIMESTONE, 100),
                                        .axes = {number(.5, .25), number(1, .5), number(1.5, .75)}};
-    struct ceduo_rock_def is = ceduo_rock_scaled(&was, 2);
-    assert_int_equal(is.shape, CEDUO_BLOCK);
-    expect_scaled("diameter", is.diameter, was.diameter, 2);
-    expect_scaled("height", is.height, was.height, 2);
-    expect_scaled("volume", is.volume, was.volume, 8);
-    expect_scaled("mass", is.mass, was.mass, 8);
-    expect_scaled("density", is.density, was.density, 1);
+    struct ceduo_rock_def after = ceduo_rock_scaled(&was, 2);
+    assert_int_equal(after.shape, CEDUO_BLOCK);
+    expect_scaled("diameter", after.diameter, was.diameter, 2);
+    expect_scaled("height", after.height, was.height, 2);
+    expect_scaled("volume", after.volume, was.volume, 8);
+    expect_scaled("mass", after.mass, was.mass, 8);
+    expect_scaled("density", after.density, was.density, 1);
     for (int i = 0; i < 3; i++)
-        expect_scaled("axis", is.axes[i], was.axes[i], 2);
+        expect_scaled("axis", after.axes[i], was.axes[i], 2);
 }
 
-/* However a rock is described. */
+/* All descriptions of a rock. */
 static const struct rock {
     const char *name;
     enum ceduo_shape shape;
@@ -71,7 +70,7 @@ static const struct rock {
     {"block by axes and mass", CEDUO_BLOCK, NAN, NAN, NAN, 900, {.4, .9, 1.3}},
 };
 
-static struct ceduo_rock_def def_of(const struct rock *r)
+static struct ceduo_rock_def make_def(const struct rock *r)
 {
     struct ceduo_rock_def def = ceduo_scene_default().rock;
     def.shape = r->shape;
@@ -87,13 +86,14 @@ static struct ceduo_rock_def def_of(const struct rock *r)
 TEST(every_description_keeps_shape_and_density)
 {
     for (size_t i = 0; i < LENGTH(rocks); i++) {
-        struct ceduo_rock_def def = def_of(&rocks[i]), other = ceduo_rock_scaled(&def, 2);
-        struct ceduo_rock was, is;
+        struct ceduo_rock_def def = make_def(&rocks[i]), second = ceduo_rock_scaled(&def, 2);
+        struct ceduo_rock was, after;
         assert_int_equal(ceduo_rock_from_means(&def, &was), CEDUO_OK);
-        assert_int_equal(ceduo_rock_from_means(&other, &is), CEDUO_OK);
-        ROWS(expect_near, (rocks[i].name, is.mean_diameter, 2 * was.mean_diameter), (rocks[i].name, is.volume, 8 * was.volume),
-             (rocks[i].name, is.mass, 8 * was.mass), (rocks[i].name, is.k, was.k));
-        expect_near(rocks[i].name, is.moment, 32 * was.moment); /* mass times length squared */
+        assert_int_equal(ceduo_rock_from_means(&second, &after), CEDUO_OK);
+        ROWS(expect_near, (rocks[i].name, after.mean_diameter, 2 * was.mean_diameter),
+             (rocks[i].name, after.volume, 8 * was.volume), (rocks[i].name, after.mass, 8 * was.mass),
+             (rocks[i].name, after.k, was.k));
+        expect_near(rocks[i].name, after.moment, 32 * was.moment); /* mass times length squared */
     }
 }
 
@@ -114,7 +114,7 @@ static void size_up(const struct ceduo_arrivals *own, struct ceduo_size_result b
     assert_int_equal(ceduo_sizes_simulate(&def, blocks), CEDUO_OK);
 }
 
-/* A block of one size is as many of 1 m3 as it has: of 1 m by 1 m by so much, whose volume no rounding touches. */
+/* A block of 1 m by 1 m by `volume` m, whose volume no rounding changes. */
 static struct ceduo_rock_def slab(double volume)
 {
     struct ceduo_rock_def def = ceduo_scene_default().rock;
@@ -124,8 +124,8 @@ static struct ceduo_rock_def slab(double volume)
     return def;
 }
 
-/* All sizes of the table and the own one, rising, once each and the own one marked; as large as a size of the table it
- * stands before it. */
+/* Expect all sizes of the table and the own one, rising, once each, the own one marked. An own size equal to one of the table
+ * comes before it. */
 static void expect_sizes(double own, size_t place)
 {
     struct ceduo_size_result b[CEDUO_SIZES];
@@ -140,7 +140,7 @@ static void expect_sizes(double own, size_t place)
     }
 }
 
-TEST(the_own_size_has_its_place_among_the_others)
+TEST(the_own_size_is_sorted_among_the_others)
 {
     static const struct {
         double own;
@@ -153,7 +153,7 @@ TEST(the_own_size_has_its_place_among_the_others)
 TEST(blocks_have_the_mass_and_width_of_their_volume)
 {
     for (size_t i = 0; i < LENGTH(rocks); i++) {
-        struct ceduo_rock_def def = def_of(&rocks[i]);
+        struct ceduo_rock_def def = make_def(&rocks[i]);
         struct ceduo_size_result b[CEDUO_SIZES];
         struct ceduo_rock own;
         assert_int_equal(ceduo_rock_from_means(&def, &own), CEDUO_OK);
@@ -167,7 +167,7 @@ TEST(blocks_have_the_mass_and_width_of_their_volume)
     }
 }
 
-/* Half of M times 25 m2/s2: what a place bears between two sizes, the smaller ones keep and the larger ones exceed. */
+/* With the energy of mass M at 5 m/s accepted between two sizes, smaller blocks stay below it and larger ones exceed it. */
 TEST(blocks_fly_with_their_own_mass)
 {
     for (size_t bears = 0; bears < LENGTH(volumes); bears++) {
@@ -183,7 +183,7 @@ TEST(blocks_fly_with_their_own_mass)
     }
 }
 
-/* What is known of the own block stands in its row as it is, if as many were simulated. */
+/* The row of the own block has the results of the run itself, if it has enough rocks. */
 TEST(the_own_block_is_not_simulated_twice)
 {
     struct ceduo_size_result blocks[CEDUO_SIZES];
@@ -196,9 +196,9 @@ TEST(the_own_block_is_not_simulated_twice)
     }
 }
 
-/* ---- of all sizes ---- */
+/* ---- all sizes ---- */
 
-/* Rocks of all sizes that come to rest long before the control. */
+/* Rocks of all sizes that stop long before the control. */
 static struct ceduo_estimate rate_above_100_kj(double fall, double height)
 {
     static double ends[] = {.05, 1};
@@ -211,14 +211,14 @@ static struct ceduo_estimate rate_above_100_kj(double fall, double height)
     g.scene.blocks = &blocks;
     g.scene.blocks_count = 1;
     const struct ceduo_run_def def = ceduo_run_def_default(&g.scene);
-    LOCAL(ceduo_run, run) = run_of(&def, 1000);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    LOCAL(ceduo_run, run) = make_run(&def, 1000);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT(a.reached, ==, 0);
     return a.hazard.accepted;
 }
 
-/* A rock that falls 20 m from its release could have as much as one that the ground takes 20 m down. */
-TEST(a_fall_from_the_release_could_bring_energy)
+/* A rock that falls 20 m from its release can have the energy of one that descends 20 m on the ground. */
+TEST(a_fall_from_the_release_adds_energy)
 {
     struct ceduo_estimate released_high = rate_above_100_kj(0, 20), steep = rate_above_100_kj(20, 0);
     EXPECT(released_high.mean, ==, 0);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ways and statistics whose results are known in closed form or from published tables. */
+/* Trajectories and statistics with results in closed form or in published tables. */
 #include "table.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #define G CEDUO_GRAVITY
 
 static struct line_scene scene;
-static struct line_way way, other;
+static struct line_way way, second;
 
 static void follow(void)
 {
@@ -33,7 +33,7 @@ static void straight(double rise, struct line_ground ground, double radius, enum
     line_scene_init(&scene, 2, x, z, ground, radius, law);
 }
 
-/* Closed forms of the published laws, which friction does not bound, and of CRSP's rolling. */
+/* Use the published laws, which have no friction bound, and CRSP's rolling. */
 static void publish(void)
 {
     scene.scene.simulation.friction_bound = false;
@@ -75,7 +75,7 @@ TEST(a_control_sees_the_flight_over_it)
     EXPECT(way.crossing.vx, ==, 10);
     expect_relative(way.crossing.vz, -G * .8, 1e-15);
     expect_relative(way.crossing.height, 50 + 4 - G * .32, 1e-14);
-    line_scene_release(&scene, 0, 0, -.1, 0, 0); /* goes the other way */
+    line_scene_release(&scene, 0, 0, -.1, 0, 0); /* leaves the other way */
     assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
     assert_false(way.crossing.reached);
     assert_int_equal(way.way.end, CEDUO_LEFT_SLOPE);
@@ -96,7 +96,7 @@ TEST(a_vertical_drop_rebounds_to_rn2_h)
         assert_false(p->rolls);
         expect_relative(p->vz * p->vz / (2 * G), h, 1e-13);
     }
-    assert_int_equal(i, way.count); /* the next one is lower than R */
+    assert_int_equal(i, way.count); /* the next bounce is lower than R */
     assert_int_equal(way.way.end, CEDUO_AT_REST);
     EXPECT_IS(way.way, (x, 500), (z, 0), (contacts, i));
 }
@@ -113,7 +113,7 @@ TEST(an_oblique_impact_on_the_flat)
     EXPECT_IS(way.pieces[0], (vx, -1), (vz, 2));
 }
 
-TEST(a_bounce_without_loss_is_given_up_and_said_so)
+TEST(a_bounce_without_loss_is_aborted_and_reported)
 {
     straight(0, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
     release(500, 1, 0, 0, 0);
@@ -146,7 +146,7 @@ static void roll_stops(enum ceduo_law law, double k, double v0)
     assert_int_equal(way.way.end, CEDUO_AT_REST);
     for (size_t i = 0; i < way.count; i++)
         assert_true(way.pieces[i].rolls);
-    assert_int_equal(way.way.contacts, ceil(fabs(way.way.x - 500) / .34)); /* one for each radius */
+    assert_int_equal(way.way.contacts, ceil(fabs(way.way.x - 500) / .34)); /* one contact per radius */
 }
 
 TEST(a_roll_on_the_flat_stops_by_friction)
@@ -157,10 +157,10 @@ TEST(a_roll_on_the_flat_stops_by_friction)
     roll_stops(CEDUO_LAW_CRSP, .4, -5);
 }
 
-/* Friction 1/2 and gravity 1 take what speed 1 has over just 1 m: there is a control, where it arrives without energy. */
+/* Friction 1/2 and gravity 1 use up speed 1 over exactly 1 m: the rock arrives at a control there without energy. */
 TEST(a_roll_stops_just_at_the_control)
 {
-    for (double radius = 1; radius <= 2; radius++) { /* a roll is as long as the radius: its end, too, or within it */
+    for (double radius = 1; radius <= 2; radius++) { /* a roll of one radius: ends at it, or within it */
         straight(0, (struct line_ground){0, 1, .5}, radius, CEDUO_LAW_LUMPED);
         scene.scene.simulation.gravity = 1;
         line_scene_release(&scene, 1, 0, 1, 0, 0);
@@ -191,7 +191,7 @@ static void roll_accelerates(enum ceduo_law law, double k, double rise, double m
     }
 }
 
-/* A sphere without friction goes with (5/7) g sin(slope). */
+/* A sphere without friction accelerates at (5/7) g sin(slope). */
 TEST(a_roll_down_a_slope)
 {
     roll_accelerates(CEDUO_LAW_CRSP, .4, -.3, 0);
@@ -204,13 +204,13 @@ TEST(a_roll_down_a_slope)
 TEST(spin_and_speed_share_their_momentum_in_a_roll)
 {
     straight(0, (struct line_ground){0, 1, .5}, .5, CEDUO_LAW_CRSP);
-    release(500, 0, 0, 0, 8); /* a spinning sphere put down */
+    release(500, 0, 0, 0, 8); /* a spinning sphere put on the ground */
     /* f = 1, SF = 1 at Rt = 1: the energy of the spin becomes that of a roll */
     expect_relative(way.pieces[0].vx, sqrt(.4 * 16 / 1.4), 1e-15);
     expect_relative(way.pieces[0].spin * .5, way.pieces[0].vx, 1e-15);
 }
 
-/* Rolling, Vn is 0 and there is no slip: each contact leaves Rt·f of the energy, f = Rt + (1 - Rt)/1.2, whatever Rn. */
+/* In a roll Vn is 0 and there is no slip: each contact leaves Rt·f of the energy, f = Rt + (1 - Rt)/1.2, for any Rn. */
 TEST(a_contact_in_a_roll_costs_the_same_for_any_rn)
 {
     static const double shares[] = {0, 1e-12, .3, 1};
@@ -230,7 +230,7 @@ TEST(a_contact_in_a_roll_costs_the_same_for_any_rn)
         }
 }
 
-/* Rt = 0 leaves no speed along the ground: each roll goes downhill from 0, one contact for each radius. */
+/* Rt = 0 leaves no speed along the ground: each roll starts downhill from 0, one contact per radius. */
 TEST(without_tangential_restitution_each_roll_begins_downhill)
 {
     for (int slope = 1; slope < 60; slope++)
@@ -258,7 +258,7 @@ TEST(a_concave_vertex_takes_the_part_into_the_ground)
     expect_relative(way.pieces[1].vz / way.pieces[1].vx, .75, 1e-15);
 }
 
-TEST(over_a_convex_vertex_it_rolls_or_flies)
+TEST(a_rock_rolls_or_flies_over_a_convex_vertex)
 {
     const double x[] = {0, 10, 20}, z[] = {0, 0, -5};
     for (int fast = 0; fast <= 1; fast++) {
@@ -267,7 +267,7 @@ TEST(over_a_convex_vertex_it_rolls_or_flies)
         assert_true(way.pieces[0].rolls);
         EXPECT(way.pieces[0].x1, ==, 10);
         EXPECT_IS(way.pieces[1], (rolls, !fast), (x, 10));
-        double v = hypot(way.pieces[1].vx, way.pieces[1].vz); /* nothing is lost */
+        double v = hypot(way.pieces[1].vx, way.pieces[1].vz); /* no energy is lost */
         expect_relative(v, fast ? 3 : .3, 1e-15);
         if (fast) /* z = -g t2/2 meets z = -x/2 */
             expect_relative(way.pieces[1].x1, 10 + 3 * 3 / G, 1e-14);
@@ -276,7 +276,7 @@ TEST(over_a_convex_vertex_it_rolls_or_flies)
 
 /* ---- resting ---- */
 
-TEST(at_rest_it_goes_where_it_is_steeper_than_friction)
+TEST(a_resting_rock_starts_if_the_slope_exceeds_friction)
 {
     for (int dir = -1; dir <= 1; dir += 2)
         for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
@@ -298,18 +298,18 @@ static void released_in_a_pit(double radius, double level, double beyond, bool s
     EXPECT((way.way.x == 1.8), ==, stays);
 }
 
-TEST(at_rest_it_stays_in_a_pit_within_its_radius)
+TEST(a_rock_rests_in_a_pit_within_its_radius)
 {
     const double bottom = hypot(.2, .1);
     released_in_a_pit(bottom * 1.01, .001, 1, true);
     released_in_a_pit(bottom * .99, .001, 1, false);
     released_in_a_pit(.5, .49, 1, true);
-    released_in_a_pit(.5, .51, 1, false);                          /* a level stretch not shorter than R is no pit */
+    released_in_a_pit(.5, .51, 1, false);                          /* a level stretch of at least R is no pit */
     const double x[] = {0, 2, 4, 10}, z[] = {0, -1, -1 + .08, -5}; /* the far side is lower than the rock */
     line_scene_init(&scene, 4, x, z, (struct line_ground){.2, .5, .01}, .5, CEDUO_LAW_LUMPED);
     release(1.8, 0, 0, 0, 0);
     EXPECT(way.way.x, !=, 1.8);
-    const double gentle[] = {0, -1, -1 + .3, -5}; /* the far side holds by its friction: not steeper than it */
+    const double gentle[] = {0, -1, -1 + .3, -5}; /* the far side, less steep than its friction, holds the rock */
     line_scene_init(&scene, 4, x, gentle, (struct line_ground){.2, .5, .2}, .5, CEDUO_LAW_LUMPED);
     release(1.8, 0, 0, 0, 0);
     EXPECT(way.way.x, !=, 1.8);
@@ -334,10 +334,10 @@ TEST(a_release_on_a_vertex_is_on_the_right)
         release(1, 0, dir * 4, -8, 0);
         EXPECT_IS(way.pieces[0], (vz, 2), (vx, dir));
     }
-    release(1, 4, 0, 0, 0); /* dropped on it */
+    release(1, 4, 0, 0, 0); /* dropped onto it */
     EXPECT(way.pieces[0].vz1, ==, -8);
     EXPECT(way.pieces[1].vz, ==, 2);
-    release(0, 0, 0, -8, 0); /* the first vertex */
+    release(0, 0, 0, -8, 0); /* first vertex */
     EXPECT(way.pieces[0].vz, ==, 4);
 }
 
@@ -347,7 +347,7 @@ TEST(a_flight_exactly_through_a_vertex_is_on_the_segment_ahead)
     release(0, 1, 2, 0, 0); /* 1 - 4 t2 = 0 at t = 1/2, x = 1 */
     EXPECT_IS(way.pieces[0], (x1, 1), (z1, 0), (vz1, -4));
     EXPECT_IS(way.pieces[1], (vz, 1), (vx, .5));
-    release(2, 1, -2, 0, 0); /* and from the other side */
+    release(2, 1, -2, 0, 0); /* from the other side */
     EXPECT(way.pieces[0].x1, ==, 1);
     EXPECT_IS(way.pieces[1], (vz, 2), (vx, -1));
 }
@@ -358,14 +358,14 @@ TEST(a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along)
     release(.5, 0, 1, 0, 0);
     assert_true(way.pieces[0].rolls);
     EXPECT_IS(way.pieces[0], (x1, 1), (vx, .5));
-    for (size_t i = 1; i < way.count; i++) { /* Rt = 1/2 once more at x = 1, 1/4 from there on */
+    for (size_t i = 1; i < way.count; i++) { /* Rt = 1/2 again at x = 1, 1/4 after it */
         const struct ceduo_trajectory_segment *p = &way.pieces[i];
         assert_true(p->contacts != 2 || (p->vx == .25 && p->x == 1));
         assert_true(p->contacts != 3 || (p->vx == .0625 && p->x == 1.5));
     }
 }
 
-TEST(the_way_ends_at_either_end_of_the_slope)
+TEST(a_trajectory_ends_at_either_end_of_the_slope)
 {
     for (int dir = -1; dir <= 1; dir += 2) {
         straight(0, (struct line_ground){.5, 1, .1}, .1, CEDUO_LAW_LUMPED);
@@ -382,7 +382,7 @@ TEST(the_way_ends_at_either_end_of_the_slope)
     }
 }
 
-TEST(a_slope_that_ends_in_a_wall_is_left_at_its_foot_only_backwards)
+TEST(a_final_wall_is_left_at_its_foot_only_backwards)
 {
     const double x[] = {0, 20, 20.001}, z[] = {0, -10, 90};
     line_scene_init(&scene, 3, x, z, (struct line_ground){.3, .8, .5}, .34, CEDUO_LAW_CRSP);
@@ -395,21 +395,21 @@ TEST(a_slope_that_ends_in_a_wall_is_left_at_its_foot_only_backwards)
     EXPECT(way.way.x, >, 10);
 }
 
-/* ---- units of length and place ---- */
+/* ---- units of length and origin ---- */
 
 static bool same_pieces(const struct line_way *a, const struct line_way *b, double length, double speed)
 {
-    bool same = a->count == b->count && a->way.end == b->way.end && a->way.contacts == b->way.contacts;
-    for (size_t i = 0; same && i < a->count; i++) {
+    bool equal = a->count == b->count && a->way.end == b->way.end && a->way.contacts == b->way.contacts;
+    for (size_t i = 0; equal && i < a->count; i++) {
         const struct ceduo_trajectory_segment *p = &a->pieces[i], *q = &b->pieces[i];
-        same = p->rolls == q->rolls && p->x * length == q->x && p->z * length == q->z && p->x1 * length == q->x1 &&
-               p->z1 * length == q->z1 && p->vx * speed == q->vx && p->vz * speed == q->vz && p->vx1 * speed == q->vx1 &&
-               p->vz1 * speed == q->vz1 && p->contacts == q->contacts && p->seconds * (length / speed) == q->seconds;
+        equal = p->rolls == q->rolls && p->x * length == q->x && p->z * length == q->z && p->x1 * length == q->x1 &&
+                p->z1 * length == q->z1 && p->vx * speed == q->vx && p->vz * speed == q->vz && p->vx1 * speed == q->vx1 &&
+                p->vz1 * speed == q->vz1 && p->contacts == q->contacts && p->seconds * (length / speed) == q->seconds;
     }
-    return same;
+    return equal;
 }
 
-/* Relative to its first vertex a profile in survey coordinates is the profile, where they lose no bit. */
+/* A profile in survey coordinates, relative to its first vertex, is the profile itself if no bit is lost. */
 TEST(a_shift_that_loses_no_bit_changes_no_bit)
 {
     for (uint64_t n = 0; n < 2000; n++) {
@@ -426,12 +426,12 @@ TEST(a_shift_that_loses_no_bit_changes_no_bit)
         for (size_t i = vertices; i-- > 0;)
             scene.x[i] -= scene.x[0];
         scene.scene.slope.origin_x = origin;
-        assert_int_equal(line_scene_follow(&scene, &other), CEDUO_OK);
-        assert_true(same_pieces(&way, &other, 1, 1));
+        assert_int_equal(line_scene_follow(&scene, &second), CEDUO_OK);
+        assert_true(same_pieces(&way, &second, 1, 1));
     }
 }
 
-/* Lengths × 4 and speeds × 2 leave v2/(g l) as it is; the laws lumped and arm have no speed of their own. */
+/* Lengths × 4 and speeds × 2 keep v2/(g l); the laws lumped and arm have no speed scale. */
 static void expect_the_same_way_in_other_sizes(bool arm)
 {
     size_t bounces = 0;
@@ -459,15 +459,15 @@ static void expect_the_same_way_in_other_sizes(bool arm)
         line_scene_release(&scene, r->x.mean * 4, r->height.mean * 4, r->vx.mean * 2, r->vz.mean * 2, r->spin.mean / 2);
         scene.control.x *= 4;
         struct ceduo_crossing before = way.crossing;
-        assert_int_equal(line_scene_follow(&scene, &other), CEDUO_OK);
-        assert_true(same_pieces(&way, &other, 4, 2));
-        ROWS(EXPECT, (before.reached, ==, other.crossing.reached), (before.height * 4, ==, other.crossing.height),
-             (before.vx * 2, ==, other.crossing.vx), (before.vz * 2, ==, other.crossing.vz));
+        assert_int_equal(line_scene_follow(&scene, &second), CEDUO_OK);
+        assert_true(same_pieces(&way, &second, 4, 2));
+        ROWS(EXPECT, (before.reached, ==, second.crossing.reached), (before.height * 4, ==, second.crossing.height),
+             (before.vx * 2, ==, second.crossing.vx), (before.vz * 2, ==, second.crossing.vz));
     }
     EXPECT(bounces, >, 10000);
 }
 
-TEST(four_times_the_lengths_and_twice_the_speeds_are_the_same_way)
+TEST(four_times_the_lengths_and_twice_the_speeds_give_the_same_trajectory)
 {
     expect_the_same_way_in_other_sizes(false);
     expect_the_same_way_in_other_sizes(true);
@@ -475,7 +475,7 @@ TEST(four_times_the_lengths_and_twice_the_speeds_are_the_same_way)
 
 /* ---- probabilities ---- */
 
-/* Newcombe 1998, Table I, method 3, to its four decimals; the rest by hand from Wilson 1927. */
+/* Newcombe 1998, Table I, method 3, to its four decimals; the others by hand from Wilson 1927. */
 TEST(intervals_of_wilson)
 {
     for (TABLE(row, "physics/statistics.txt", "Wilson")) {
@@ -496,16 +496,16 @@ TEST(intervals_of_wilson)
     }
     ROWS(EXPECT, (ceduo_wilson(0, 0, 0).lo, ==, 0), (ceduo_wilson(0, 0, 0).hi, ==, 1), (ceduo_wilson(0, 0, 999).hi, <, .004));
     EXPECT(ceduo_wilson(0, 0, 999).hi, >, .0038);                         /* "below 0.4 %" */
-    EXPECT(ceduo_wilson(.2, .3, 50).lo, ==, ceduo_wilson(.2, .2, 50).lo); /* a tenth may be one or not */
+    EXPECT(ceduo_wilson(.2, .3, 50).lo, ==, ceduo_wilson(.2, .2, 50).lo); /* a tenth may be a hit or not */
     EXPECT(ceduo_wilson(.2, .3, 50).hi, ==, ceduo_wilson(.3, .3, 50).hi);
 }
 
-/* Student 1908; the quantiles of 97.5 % as any table has them. */
-TEST(widths_of_few)
+/* Student 1908; the 97.5 % quantiles of any table. */
+TEST(student_widths)
 {
     for (TABLE(row, "physics/statistics.txt", "Student"))
         EXPECT_NEAR(ceduo_half_width(2, (uint64_t)atof(row.at[0])), 2 * atof(row.at[1]), 1e-3);
-    for (uint64_t n = 0; n < 10; n++) /* too few to say */
+    for (uint64_t n = 0; n < 10; n++) /* n too small */
         assert_true(isnan(ceduo_half_width(1, n)));
     expect_relative(ceduo_share_half_width(0.25, 0.1, 50), 0.1959963984540054, 1e-15);
     EXPECT_NEAR(ceduo_share_half_width(0, 0, 20), .1611, .5e-4); /* Newcombe 1998, Table I */
@@ -513,11 +513,11 @@ TEST(widths_of_few)
     EXPECT_NEAR(ceduo_share_half_width(1, 0, 29), ceduo_share_half_width(0, 0, 29), 1e-15);
 }
 
-/* Of n pairs that are all equal as many as 3.841/(n + 3.841) may differ: Wilson's upper end of 0 of n. */
+/* In n equal pairs up to 3.841/(n + 3.841) may differ: Wilson's upper bound of 0 in n. */
 TEST(pairs_that_do_not_differ)
 {
     struct ceduo_moments m = {0};
-    struct ceduo_estimate p = ceduo_estimate_from_pairs(.5, &m, 100); /* of which no single rock is kept */
+    struct ceduo_estimate p = ceduo_estimate_from_pairs(.5, &m, 100); /* no single rock is stored */
     EXPECT(p.mean, ==, .5);
     assert_true(isnan(p.se));
     assert_false(ceduo_pairs_are_equal(&p));
@@ -527,14 +527,14 @@ TEST(pairs_that_do_not_differ)
     EXPECT(p.mean, ==, 0);
     assert_true(isnan(p.se));
     EXPECT_NEAR(p.hi, 3.841459 / (999 + 3.841459), 1e-9);
-    ceduo_moments_add(&m, -1); /* one of 1000 */
+    ceduo_moments_add(&m, -1); /* one in 1000 */
     p = ceduo_estimate_from_pairs(-1e-3, &m, 1000);
     EXPECT(p.mean, ==, -1e-3);
     EXPECT_NEAR(p.se, 1e-3, 1e-6);
     assert_false(ceduo_pairs_are_equal(&p));
     m = (struct ceduo_moments){0};
     for (int i = 0; i < 20; i++)
-        ceduo_moments_add(&m, 0.5); /* all differ, and alike */
+        ceduo_moments_add(&m, 0.5); /* all differ equally */
     p = ceduo_estimate_from_pairs(0.5, &m, 20);
     EXPECT_IS(p, (se, 0), (lo, .5), (hi, .5));
 }
@@ -545,7 +545,7 @@ TEST(ranks_of_quantiles)
         assert_int_equal(ceduo_quantile_rank((size_t)atof(row.at[0]), atof(row.at[1])), atof(row.at[2]));
 }
 
-/* P(X <= k) of the binomial law by its own sum. */
+/* P(X <= k) of the binomial law by direct summation. */
 static long double binomial_below(size_t n, long double p, size_t k)
 {
     long double sum = 0, term = powl(1 - p, (long double)n);
@@ -568,7 +568,7 @@ TEST(intervals_of_quantiles)
     assert_true(isnan(ceduo_quantile(NULL, 0, .5)));
     const double shares[] = {.01, .05, .5, .95, .99};
     for (size_t i = 0; i < LENGTH(shares); i++)
-        for (size_t n = 1; n <= 300; n++) { /* neither tail has more than 2.5 %, and one rank further in it would */
+        for (size_t n = 1; n <= 300; n++) { /* neither tail exceeds 2.5 %; one rank further in it would */
             size_t lo, hi;
             long double p = shares[i];
             ceduo_quantile_interval(n, shares[i], &lo, &hi);
@@ -578,7 +578,7 @@ TEST(intervals_of_quantiles)
         }
 }
 
-/* Some shapes of many values, up to those that no range of numbers divides evenly. */
+/* Return value i of a sample shape, up to shapes that no intervals divide evenly. */
 static double many_valued(size_t shape, size_t i, struct line_random *r)
 {
     switch (shape) {
@@ -590,7 +590,7 @@ static double many_valued(size_t shape, size_t i, struct line_random *r)
         return i == 777 ? 1e9 : line_uniform(r, 20, 21);
     case 3:
         return i % 2 == 0 ? 7 : 8;
-    case 4: /* the last bit of some of them differs */
+    case 4: /* some differ in the last bit */
         return i % 3 == 0 ? nextafter(1, 2) : 1;
     case 5:
         return (double)(i % 5) * 0x1p-1074;
@@ -601,15 +601,14 @@ static double many_valued(size_t shape, size_t i, struct line_random *r)
     }
 }
 
-/* Of many values percentiles are looked for among those near them alone; they are the same as of sorted ones, and no value is
- * lost. */
+/* Percentiles of many values are searched among near values only. They equal those of sorted values, and no value is lost. */
 TEST(percentiles_of_many_values)
 {
     static const size_t sizes[] = {32767, 32768, 100003};
     static double values[100003], sorted[100003];
     struct line_random r = {.state = 11};
     for (size_t shape = 0; shape < 8; shape++)
-        for (size_t s = 0; s < (shape == 0 ? 40 : LENGTH(sizes)); s++) { /* each rank comes to where ranges end */
+        for (size_t s = 0; s < (shape == 0 ? 40 : LENGTH(sizes)); s++) { /* every rank reaches an interval's end */
             size_t n = s < LENGTH(sizes) ? sizes[s] : 32768 + 101 * s;
             struct ceduo_moments m = {0};
             for (size_t i = 0; i < n; i++) {
@@ -657,8 +656,8 @@ TEST(moments_added_and_merged)
                 ceduo_moments_add(&part, values[i++]);
             ceduo_moments_merge(&all, &part);
         }
-        struct ceduo_moments none = {0};
-        ceduo_moments_merge(&all, &none);
+        struct ceduo_moments empty = {0};
+        ceduo_moments_merge(&all, &empty);
         assert_int_equal(all.n, n);
         EXPECT(all.max, ==, largest);
         ROWS(expect_relative, (all.mean, (double)mean, 1e-14), (all.m2, (double)squares, 1e-9),
@@ -672,7 +671,7 @@ TEST(moments_added_and_merged)
     EXPECT_IS(one, (mean, 4), (max, 4));
 }
 
-/* ---- numbers that differ from rock to rock ---- */
+/* ---- numbers that vary between rocks ---- */
 
 static double density(double z)
 {
@@ -688,7 +687,7 @@ struct seen {
     double mean, sd, lowest, highest;
 };
 
-/* Draws by n evenly spread quantiles (n > 0) or by 10^6 random ones. */
+/* Draw by n evenly spaced quantiles (n > 0) or by 10^6 random ones. */
 static struct seen draw_many(struct ceduo_number number, double lo, double hi, size_t n)
 {
     struct line_random r = {.state = 11};
@@ -707,7 +706,7 @@ static struct seen draw_many(struct ceduo_number number, double lo, double hi, s
     return seen;
 }
 
-/* Against the normal law cut at [a, b] standard deviations from its mean. */
+/* Compare with the normal law truncated at [a, b] standard deviations from its mean. */
 static void expect_cut_normal(double mean, double sd, double lo, double hi)
 {
     struct ceduo_number n = {.mean = mean, .spread = sd, .kind = CEDUO_NORMAL};
@@ -718,13 +717,13 @@ static void expect_cut_normal(double mean, double sd, double lo, double hi)
     struct seen even = draw_many(n, lo, hi, 200000), random = draw_many(n, lo, hi, 0);
     EXPECT_NEAR(even.mean, expected, 1e-5 * sd);
     EXPECT_NEAR(even.sd, width, 1e-4 * sd);
-    EXPECT_NEAR(random.mean, expected, 4 * width / 1e3); /* 4 standard errors of 10^6 */
-    EXPECT_NEAR(random.sd, width, 4 * width / 1e3);      /* its own are smaller: no long tails */
+    EXPECT_NEAR(random.mean, expected, 4 * width / 1e3); /* 4 standard errors of 10^6 draws */
+    EXPECT_NEAR(random.sd, width, 4 * width / 1e3);      /* its own error is smaller: no long tails */
     ROWS(EXPECT, (even.lowest, >=, mean + a * sd - 1e-15), (even.lowest, <, mean + (a + .05) * sd),
          (even.highest, <=, mean + b * sd + 1e-15), (even.highest, >, mean + (b - .05) * sd));
 }
 
-TEST(a_normal_spread_is_cut)
+TEST(a_normal_law_is_truncated)
 {
     expect_cut_normal(.5, .05, -INFINITY, INFINITY); /* at three standard deviations */
     expect_cut_normal(.9, .1, 0, 1);
@@ -755,7 +754,7 @@ TEST(a_uniform_spread)
 
 /* ---- facet draws ---- */
 
-TEST(facet_draws_are_even_and_depend_on_all_they_should)
+TEST(facet_draws_are_uniform_and_depend_on_all_inputs)
 {
     const uint64_t n = 200000;
     double sum = 0, squares = 0, product = 0, last = .5;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers that are drawn for each rock: no two of them go together, and the roughness is that of the rock's own radius. All are read
- * from where a rock leaves, and from its speed before and after its first contact with level ground. */
+/* Numbers drawn for each rock: no two are correlated, and roughness uses the rock's own radius. All are computed from the
+ * release and from the speed before and after the first contact with level ground. */
 #include "expect.h"
 #include "local.h"
 
@@ -69,8 +69,8 @@ static double correlation(const double *a, const double *b)
     return ab / sqrt(aa * bb);
 }
 
-/* Correlations of 4000 independent pairs are 0 within 4.5/sqrt(4000): one of 36 is beyond with a chance of 0.0003. The spin is read
- * under a law that has one, Rn and Rt under the law by which they are what a contact leaves of the speed. */
+/* Correlations of 4000 independent pairs are 0 within 4.5/sqrt(4000); one of 36 exceeds it with probability 0.0003. The spin is
+ * measured under a law with spin, Rn and Rt under the law in which they are ratios of speeds. */
 TEST(no_two_numbers_of_a_rock_go_together)
 {
     static double drawn[NUMBERS][ROCKS];
@@ -109,10 +109,10 @@ TEST(no_two_numbers_of_a_rock_go_together)
         }
 }
 
-/* Ground that turns back all speed turns a rock by twice the angle of the facet: the largest angles of 4000 rocks come close to
- * atan(height of the roughness / radius of the rock), and none is beyond. With few heights of roughness and with more than are
- * counted; of two segments the first is met. */
-TEST(a_facet_is_as_steep_as_the_radius_says)
+/* Ground that reverses all speed turns a rock by twice the facet's angle. The largest angles of 4000 rocks come close to
+ * atan(roughness height / rock radius), and none exceeds it. Tested with few heights of roughness and with more than are
+ * stored. The first of two segments is hit. */
+TEST(the_radius_limits_the_steepness_of_facets)
 {
     enum { MANY = 60 };
     static struct ceduo_segment segments[MANY];

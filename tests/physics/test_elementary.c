@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Functions of one number, against those of the C library in long double, on grids and at random places. */
+/* Functions of one number, compared with the C library in long double, on grids and at random points. */
 #include "expect.h"
 
 #include <float.h>
@@ -10,7 +10,7 @@
 #include "base/elementary.h"
 #include "base/random.h"
 #include "base/real.h"
-/* Their header is not written for our warnings. */
+/* This header does not compile with our warnings. */
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
@@ -29,14 +29,14 @@ static double uniform(void)
     return (double)(state >> 11) * 0x1p-53;
 }
 
-/* A grid first, then places at random. */
+/* Return point i: first on a grid, then random. */
 static double place(size_t i, double lo, double hi)
 {
     double u = i < PLACES / 2 ? (double)i / (PLACES / 2) : uniform();
     return lo + (hi - lo) * u;
 }
 
-/* Units of the last place of the true value. */
+/* Error in units of the last place of the exact value. */
 static double ulps(double value, long double exact)
 {
     int exponent;
@@ -44,10 +44,10 @@ static double ulps(double value, long double exact)
     return (double)(fabsl((long double)value - exact) / ldexpl(1, exponent - DBL_MANT_DIG));
 }
 
-static void expect_near(const char *what, double at, double value, long double exact, double most)
+static void expect_near(const char *what, double at, double value, long double exact, double max)
 {
     double off = ulps(value, exact);
-    if (!(off <= most))
+    if (!(off <= max))
         fail_msg("%s(%.17g) is %.17g, %.2f ulp off", what, at, value, off);
 }
 
@@ -71,7 +71,7 @@ TEST(logarithms)
     assert_true(isnan(ceduo_log(-1)) && isnan(ceduo_log(NAN)));
 }
 
-/* As the authors of Threefry compute it. */
+/* As computed by Threefry's authors. */
 TEST(random_bits_are_those_of_random123)
 {
     for (uint64_t n = 0; n < PLACES / 10; n++) {
@@ -84,8 +84,8 @@ TEST(random_bits_are_those_of_random123)
     }
 }
 
-/* Neighbours among seeds, variants and numbers have nothing in common: seed 2^53 in a year is not seed 0 in the next one. */
-TEST(variants_have_seeds_of_their_own)
+/* Neighbouring seeds, variants and numbers are unrelated: seed 2^53 in a year is not seed 0 in the next one. */
+TEST(variants_have_their_own_seeds)
 {
     enum { NUMBERS = 40, VARIANTS = VARIANT_PREDICTION + 1 };
     const uint64_t given[] = {0, 1, 2, 1ull << 52, 1ull << 53, (1ull << 53) - 1, 1ull << 54, 0x5eed};
@@ -97,11 +97,11 @@ TEST(variants_have_seeds_of_their_own)
     for (size_t a = 0; a < n; a++)
         for (size_t b = 0; b < a; b++) {
             assert_true(seeds[a] != seeds[b]);
-            EXPECT(__builtin_popcountll(seeds[a] ^ seeds[b]), >, 5); /* of 64 bits about half differ */
+            EXPECT(__builtin_popcountll(seeds[a] ^ seeds[b]), >, 5); /* about half of 64 bits differ */
         }
 }
 
-/* A register gives the bits of one number in each lane. */
+/* A register gives the bits of the scalar function in each lane. */
 TEST(lanes)
 {
     for (uint64_t n = 0; n < PLACES / REAL_LANES; n++) {

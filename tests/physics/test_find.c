@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inverse search: what it finds, the goal says of it when it is asked forward. */
+/* Inverse search: the goal evaluated at the result meets the target. */
 #include "expect.h"
 
 #include <math.h>
@@ -7,21 +7,21 @@
 #include "ceduo/ceduo.h"
 #include "line_scene.h"
 
-#define GOALS 1000
-#define MOST  60 /* evaluations */
+#define GOALS           1000
+#define EVALUATIONS_MAX 60 /* maximum evaluations */
 
-/* A goal, and the values it was asked for. */
+/* A goal, and the values at which it was evaluated. */
 struct asked {
     double (*goal)(const struct asked *asked, double value);
     double p[4];
-    double values[MOST];
+    double values[EVALUATIONS_MAX];
     unsigned count;
 };
 
-static enum ceduo_status ask(void *context, double value, double *goal)
+static enum ceduo_status evaluate(void *context, double value, double *goal)
 {
     struct asked *a = context;
-    EXPECT(a->count, <, MOST);
+    EXPECT(a->count, <, EVALUATIONS_MAX);
     for (unsigned i = 0; i < a->count; i++)
         EXPECT(a->values[i], !=, value); /* no value twice */
     a->values[a->count++] = value;
@@ -29,7 +29,7 @@ static enum ceduo_status ask(void *context, double value, double *goal)
     return CEDUO_OK;
 }
 
-static bool passes(const struct asked *a, double target, double value)
+static bool is_passing(const struct asked *a, double target, double value)
 {
     return a->goal(a, value) <= target;
 }
@@ -37,13 +37,13 @@ static bool passes(const struct asked *a, double target, double value)
 static struct ceduo_found find_with(struct asked *a, double lo, double hi, bool whole, double target, double tolerance)
 {
     struct ceduo_find_def def = {
-        .lo = lo, .hi = hi, .whole = whole, .target = target, .goal = ask, .context = a, .tolerance = tolerance};
+        .lo = lo, .hi = hi, .whole = whole, .target = target, .goal = evaluate, .context = a, .tolerance = tolerance};
     struct ceduo_found found;
     a->count = 0;
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
     assert_int_equal(found.evaluations, a->count);
     if (found.found) {
-        assert_true(passes(a, target, found.value));
+        assert_true(is_passing(a, target, found.value));
         ROWS(EXPECT, (found.goal_at_value, ==, a->goal(a, found.value)), (found.value, >=, lo), (found.value, <=, hi));
         assert_true((!whole || found.value == floor(found.value)));
     } else {
@@ -57,7 +57,7 @@ static struct ceduo_found find(struct asked *a, double lo, double hi, bool whole
     return find_with(a, lo, hi, whole, target, 0);
 }
 
-static bool was_asked(const struct asked *a, double value)
+static bool was_evaluated(const struct asked *a, double value)
 {
     for (unsigned i = 0; i < a->count; i++)
         if (a->values[i] == value)
@@ -65,13 +65,13 @@ static bool was_asked(const struct asked *a, double value)
     return false;
 }
 
-/* Beyond the value, on its failing side, one was seen to fail no farther than `width`. */
+/* Expect an evaluation that fails at most `width` from the value, on its failing side. */
 static void expect_edge(const struct asked *a, const struct ceduo_found *found, double target, double width)
 {
     double out = found->side == CEDUO_SMALLEST ? -1 : 1, nearest = INFINITY;
     for (unsigned i = 0; i < a->count; i++) {
         double away = (a->values[i] - found->value) * out;
-        if (away > 0 && away < nearest && !passes(a, target, a->values[i]))
+        if (away > 0 && away < nearest && !is_passing(a, target, a->values[i]))
             nearest = away;
     }
     if (!(nearest <= width * (1 + 1e-12)))
@@ -89,7 +89,7 @@ static double adc_of_reserves(const struct asked *a, double per_ha)
     return ceduo_adc_value(&adc, ceduo_adc_rule(&stand, a->p[1], CEDUO_RULE_AUTO));
 }
 
-/* 60 reserves of 20 cm are some 190 m from each other (Ciabocco et al. 2009); 30 m need 379. */
+/* 60 reserves of 20 cm are some 190 m apart (Ciabocco et al. 2009); 30 m need 379. */
 TEST(reserves_for_30_m)
 {
     static const struct {
@@ -98,14 +98,14 @@ TEST(reserves_for_30_m)
     } rocks[] = {{.56, 439}, {.68, 379}, {.80, 334}};
     for (size_t i = 0; i < LENGTH(rocks); i++) {
         struct asked a = {.goal = adc_of_reserves, .p = {.20, rocks[i].b}};
-        assert_false(passes(&a, 30, 60));
+        assert_false(is_passing(&a, 30, 60));
         struct ceduo_found found = find(&a, 0, 5000, true, 30); /* infinite at 0 */
         assert_true(found.found);
         assert_true(found.monotone);
         assert_false(found.whole_range);
         EXPECT_IS(found, (side, CEDUO_SMALLEST), (value, rocks[i].needed));
-        assert_true(was_asked(&a, rocks[i].needed - 1));
-        assert_false(passes(&a, 30, rocks[i].needed - 1));
+        assert_true(was_evaluated(&a, rocks[i].needed - 1));
+        assert_false(is_passing(&a, 30, rocks[i].needed - 1));
         EXPECT(found.evaluations, <, 20);
         found = find(&a, 0, 5000, false, 30);
         assert_true(found.found);
@@ -124,7 +124,7 @@ static double uniform(double lo, double hi)
     return line_uniform(&random_numbers, lo, hi);
 }
 
-/* p[0] its sign and scale, p[1] its kind, p[2] and p[3] its shape. Values from 0 to 1000. */
+/* p[0] is its sign and scale, p[1] its kind, p[2] and p[3] its shape. Values from 0 to 1000. */
 static double curve(const struct asked *a, double value)
 {
     double x = value / 1000, shape = a->p[2];
@@ -148,17 +148,17 @@ static double curve(const struct asked *a, double value)
 
 TEST(inverse_and_forward_agree)
 {
-    unsigned most = 0, sum = 0, crossings = 0;
+    unsigned max = 0, sum = 0, crossings = 0;
     for (int i = 0; i < GOALS; i++) {
         struct asked a = {.goal = curve,
                           .p = {uniform(.1, 100) * (i % 2 ? -1 : 1), floor(uniform(0, 7)), uniform(.2, 4), uniform(0, 1)}};
         bool whole = uniform(0, 1) < .5;
         double lo = floor(uniform(0, 400)), hi = floor(uniform(lo, 1000));
         double target = curve(&a, uniform(lo - .05 * (hi - lo), hi + .05 * (hi - lo)));
-        if (isnan(target)) /* of a value below 0 */
+        if (isnan(target)) /* for a value below 0 */
             target = curve(&a, (lo + hi) / 2);
         struct ceduo_found found = find(&a, lo, hi, whole, target);
-        bool at_lo = passes(&a, target, lo), at_hi = passes(&a, target, hi);
+        bool at_lo = is_passing(&a, target, lo), at_hi = is_passing(&a, target, hi);
         assert_true(found.monotone);
         assert_int_equal(found.found, at_lo || at_hi);
         assert_int_equal(found.whole_range, at_lo && at_hi);
@@ -170,10 +170,10 @@ TEST(inverse_and_forward_agree)
             crossings++;
             sum += found.evaluations;
         }
-        most = found.evaluations > most ? found.evaluations : most;
+        max = found.evaluations > max ? found.evaluations : max;
     }
     EXPECT(crossings, >, GOALS / 2);
-    print_message("%u crossings: %.1f evaluations each, %u at most\n", crossings, (double)sum / crossings, most);
+    print_message("%u crossings: %.1f evaluations each, %u at most\n", crossings, (double)sum / crossings, max);
 }
 
 static double line(const struct asked *a, double value)
@@ -199,7 +199,7 @@ TEST(a_value_is_as_near_as_the_tolerance)
     EXPECT_NEAR(found.value, sqrt(2), 1e-12);
     EXPECT(found.evaluations, ==, 2 + 44);
     expect_edge(&a, &found, 2, 1e-12);
-    found = find_with(&a, 0, 10, false, 2, .1); /* no better than asked for */
+    found = find_with(&a, 0, 10, false, 2, .1); /* no better than required */
     EXPECT_NEAR(found.value, sqrt(2), 1);
     EXPECT(found.evaluations, ==, 2 + 4);
 }
@@ -213,7 +213,7 @@ static double steps(const struct asked *a, double value)
 
 static double cliff(const struct asked *a, double value)
 {
-    return value < a->p[0] ? 1e-9 : 1e9; /* as lopsided as can be */
+    return value < a->p[0] ? 1e-9 : 1e9; /* as asymmetric as possible */
 }
 
 TEST(steps_and_jumps)
@@ -226,14 +226,14 @@ TEST(steps_and_jumps)
     expect_edge(&a, &found, -10, 1e-7);
     found = find(&a, 0, 100, true, -10);
     EXPECT(found.value, ==, 14);
-    assert_true(was_asked(&a, 13));
+    assert_true(was_evaluated(&a, 13));
     a = (struct asked){.goal = cliff, .p = {.123456}};
     found = find(&a, 0, 1, false, 1e-6);
     EXPECT(found.side, ==, CEDUO_LARGEST);
     EXPECT(found.value, <, .123456);
     expect_edge(&a, &found, 1e-6, 1e-9);
     EXPECT(found.evaluations, <=, 55);
-    found = find(&a, 0, 1, false, 1e-9); /* the whole lower step is on the target */
+    found = find(&a, 0, 1, false, 1e-9); /* the whole lower step equals the target */
     assert_true(found.found);
     EXPECT(found.value, <, .123456);
     expect_edge(&a, &found, 1e-9, 1e-9);
@@ -244,11 +244,11 @@ TEST(large_whole_numbers)
     struct asked a = {.goal = line, .p = {-1}};
     struct ceduo_found found = find(&a, 0, 1e12, true, -123456789012);
     EXPECT(found.value, ==, 123456789012);
-    assert_true(was_asked(&a, 123456789011));
+    assert_true(was_evaluated(&a, 123456789011));
     EXPECT(found.evaluations, <, 45);
     found = find(&a, .5, 3.5, true, -2.5); /* 1…3 */
     EXPECT(found.value, ==, 3);
-    assert_true(was_asked(&a, 2));
+    assert_true(was_evaluated(&a, 2));
     EXPECT(found.evaluations, <=, 3);
     found = find(&a, 2.2, 2.8, true, 0);
     assert_false(found.found);
@@ -256,14 +256,14 @@ TEST(large_whole_numbers)
     assert_true(isnan(found.nearest));
 }
 
-/* ---- goals that turn ---- */
+/* ---- goals that are not monotone ---- */
 
-TEST(goals_that_turn_between_their_ends)
+TEST(goals_that_are_not_monotone)
 {
     const struct {
         double middle, sign, target, edge, whole_edge;
-    } rows[] = {{60, 1, 402, 60 - sqrt(402), 40},    /* a pass between ends that fail */
-                {40, -1, -402, 40 + sqrt(402), 61}}; /* a fail between ends that pass */
+    } rows[] = {{60, 1, 402, 60 - sqrt(402), 40},    /* is_passing between failing ends */
+                {40, -1, -402, 40 + sqrt(402), 61}}; /* fails between passing ends */
     for (size_t i = 0; i < 2 * LENGTH(rows); i++) {
         bool whole = i % 2;
         struct asked a = {.goal = parabola, .p = {rows[i / 2].middle, rows[i / 2].sign}};
@@ -276,7 +276,7 @@ TEST(goals_that_turn_between_their_ends)
         expect_edge(&a, &found, rows[i / 2].target, whole ? 1 : 1e-7);
     }
     struct asked a = {.goal = parabola, .p = {60, 1}};
-    struct ceduo_found found = find(&a, 0, 60, true, 2500); /* of one side only there is nothing to see of the turn */
+    struct ceduo_found found = find(&a, 0, 60, true, 2500); /* one side alone does not show the reversal */
     assert_true(found.monotone);
     EXPECT(found.value, ==, 10);
 }
@@ -286,7 +286,7 @@ static double noisy(const struct asked *a, double value)
     return 1 + a->p[0] * sin(value);
 }
 
-TEST(rounding_is_no_turn)
+TEST(rounding_is_no_rotation)
 {
     struct asked a = {.goal = noisy, .p = {1e-14}};
     assert_true(find(&a, 0, 100, false, 0).monotone);
@@ -294,13 +294,13 @@ TEST(rounding_is_no_turn)
     assert_false(find(&a, 0, 100, false, 0).monotone);
 }
 
-TEST(nothing_passes)
+TEST(a_search_without_a_passing_value)
 {
     struct asked a = {.goal = parabola, .p = {35, 1}};
-    struct ceduo_found found = find(&a, 0, 90, false, -1); /* seen: every 10 */
+    struct ceduo_found found = find(&a, 0, 90, false, -1); /* evaluated: every 10 */
     ROWS(assert_false, (found.found), (found.monotone), (found.whole_range));
     EXPECT_IS(found, (evaluations, 2 + CEDUO_FIND_SCAN), (nearest, 30));
-    EXPECT(found.goal_at_nearest, ==, 25); /* 40 is as near */
+    EXPECT(found.goal_at_nearest, ==, 25); /* 40 is equally near */
     found = find(&a, 0, 3, true, 3);
     assert_false(found.found);
     assert_true(found.monotone);
@@ -309,7 +309,7 @@ TEST(nothing_passes)
     assert_false(found.found);
 }
 
-TEST(everything_passes)
+TEST(a_search_with_only_passing_values)
 {
     struct asked a = {.goal = line, .p = {-1}};
     struct ceduo_found found = find(&a, 5, 90, false, 0);
@@ -342,7 +342,7 @@ TEST(goals_that_are_not_finite)
         EXPECT_NEAR(found.value, 50, 1e-7);
         EXPECT(found.side, ==, CEDUO_SMALLEST);
         expect_edge(&a, &found, 50, 1e-7);
-        found = find(&a, 0, 100, false, 90); /* passes from where it is a number on; -inf from 0 on */
+        found = find(&a, 0, 100, false, 90); /* is_passing wherever it is a number; -inf from 0 on */
         assert_true(found.found);
         EXPECT(found.whole_range, ==, (i == 2));
         EXPECT_NEAR(found.value, (i == 2 ? 0 : 20.5), 1e-7);
@@ -359,7 +359,7 @@ TEST(goals_that_are_not_finite)
     EXPECT_NAN(found.nearest, found.goal_at_nearest);
 }
 
-/* Waves, steps, and where p[3] says so infinite or no number at all. */
+/* Waves and steps, infinite or NaN if p[3] asks for it. */
 static double wild(const struct asked *a, double value)
 {
     double wave = sin(a->p[0] * value) + sin(a->p[1] * value * value);
@@ -378,7 +378,7 @@ TEST(any_goal_at_all)
         struct ceduo_found found = find(&a, lo, hi, whole, target);
         bool seen = false;
         for (unsigned j = 0; j < a.count; j++)
-            seen |= passes(&a, target, a.values[j]);
+            seen |= is_passing(&a, target, a.values[j]);
         assert_int_equal(found.found, seen);
         if (found.found && !found.whole_range)
             expect_edge(&a, &found, target, whole ? 1 : 1e-9 * (hi - lo));
@@ -388,7 +388,7 @@ TEST(any_goal_at_all)
     EXPECT(count[true], >, GOALS / 10);
 }
 
-/* ---- ends before its end ---- */
+/* ---- early end ---- */
 
 static enum ceduo_status fails_at_5(void *context, double value, double *goal)
 {
@@ -408,7 +408,7 @@ static enum ceduo_status cancels_at_5(void *context, double value, double *goal)
     return CEDUO_OK;
 }
 
-TEST(it_ends_where_the_goal_fails_or_it_is_cancelled)
+TEST(a_search_ends_if_the_goal_fails_or_is_cancelled)
 {
     unsigned count = 0;
     struct ceduo_find_def def = {.hi = 1e6, .whole = true, .target = 12345, .goal = fails_at_5, .context = &count};

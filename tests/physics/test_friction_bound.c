@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Impacts of the laws lumped and crsp with the friction bound: what holds for a million random impacts of each. Golden values
- * stand in test_golden.c. */
+/* Impacts of the laws lumped and crsp with the friction bound: rules for a million random impacts of each. Golden values are in
+ * test_golden.c. */
 #include "expect.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #define IMPACTS  1000000
 #define ROUNDING 1e-14
 
-/* Ground, rock and an impact on it, in the axes of the facet. */
+/* Ground, rock and an impact, in the axes of the facet. */
 struct blow {
     struct ground_point at;
     struct impact in;
@@ -35,7 +35,7 @@ static struct blow random_blow(struct line_random *r, const struct contact_law *
                                 .spin = !law->spins || line_chance(r, .2) ? 0 : speed * line_uniform(r, -2, 2) / radius}};
 }
 
-/* Strikes the segment itself, where the facet is not turned. */
+/* Apply a law to an impact on the segment itself, with an unturned facet. */
 static struct impact strike_flat(const struct contact_law *law, const struct blow *b, bool bound)
 {
     struct ground_point at = b->at;
@@ -47,14 +47,14 @@ static struct impact strike_flat(const struct contact_law *law, const struct blo
 
 static const struct contact_law *const laws[] = {&law_lumped, &law_crsp};
 
-/* Energy per half of the mass. The lumped law has no rotation. */
+/* Return the energy per half of the mass. The lumped law has no rotation. */
 static double energy(const struct contact_law *law, const struct ground_point *at, double along, double off, double spin)
 {
     double rim = law->spins ? spin * at->radius : 0;
     return along * along + off * off + at->k * rim * rim;
 }
 
-/* On facets that are turned to either side, up to a right angle. */
+/* On facets turned to either side, up to a right angle. */
 TEST(no_impact_gains_energy)
 {
     struct line_random r = {.state = 1};
@@ -75,14 +75,14 @@ TEST(no_impact_gains_energy)
         }
 }
 
-/* Loss of speed along the facet, in the direction in which the rock comes in. */
+/* Return the loss of speed along the facet, in the incoming direction. */
 static double loss(struct impact in, struct impact out)
 {
     return fabs(in.vt) - copysign(1, in.vt) * out.vt;
 }
 
 /* If the law takes at most friction times the normal impulse, its bits stay. Otherwise the loss is this bound, the rock keeps
- * its direction, and its spin follows the impulse towards rolling, never past it. The normal speed is always that of the law. */
+ * its direction, and its spin follows the impulse towards rolling, never past it. The normal speed is always the law's. */
 TEST(friction_bounds_the_loss_along_the_facet)
 {
     struct line_random r = {.state = 2};
@@ -91,16 +91,16 @@ TEST(friction_bounds_the_loss_along_the_facet)
         for (int i = 0; i < IMPACTS; i++) {
             struct blow b = random_blow(&r, laws[l]);
             struct impact in = b.in, law = strike_flat(laws[l], &b, false), out = strike_flat(laws[l], &b, true);
-            double most = b.at.friction * (in.vn + law.vn), rounding = ROUNDING * (fabs(in.vt) + most);
+            double max = b.at.friction * (in.vn + law.vn), rounding = ROUNDING * (fabs(in.vt) + max);
             EXPECT(out.vn, ==, law.vn);
             if (in.vt != 0)
-                EXPECT(loss(in, out), <=, most + rounding);
-            if (in.vt == 0 || fabs(in.vt) - fabs(law.vt) <= most) {
+                EXPECT(loss(in, out), <=, max + rounding);
+            if (in.vt == 0 || fabs(in.vt) - fabs(law.vt) <= max) {
                 EXPECT_SAME(out, law, vt, spin);
                 continue;
             }
             binds++;
-            EXPECT_NEAR(loss(in, out), most, rounding);
+            EXPECT_NEAR(loss(in, out), max, rounding);
             EXPECT(in.vt * out.vt, >=, 0);
             EXPECT(fabs(out.vt), >=, fabs(law.vt));
             if (!laws[l]->spins) {
@@ -108,11 +108,11 @@ TEST(friction_bounds_the_loss_along_the_facet)
                 continue;
             }
             double one = copysign(1, in.vt), rim = one * in.spin * b.at.radius, to = one * out.spin * b.at.radius;
-            double rolling = fabs(out.vt), room = ROUNDING * (fabs(in.vt) + fabs(rim) + most / b.at.k);
-            EXPECT(fabs(to - rim), <=, most / b.at.k + room);
-            EXPECT(to, >=, fmin(rim, rolling) - room);
-            EXPECT(to, <=, fmax(rim, rolling) + room);
-            bool follows = fabs(fabs(to - rim) - most / b.at.k) <= room, at_rolling = fabs(to - rolling) <= room;
+            double rolling = fabs(out.vt), tolerance = ROUNDING * (fabs(in.vt) + fabs(rim) + max / b.at.k);
+            EXPECT(fabs(to - rim), <=, max / b.at.k + tolerance);
+            EXPECT(to, >=, fmin(rim, rolling) - tolerance);
+            EXPECT(to, <=, fmax(rim, rolling) + tolerance);
+            bool follows = fabs(fabs(to - rim) - max / b.at.k) <= tolerance, at_rolling = fabs(to - rolling) <= tolerance;
             assert_true(follows || at_rolling);
             rolls += at_rolling;
         }
@@ -123,8 +123,8 @@ TEST(friction_bounds_the_loss_along_the_facet)
     }
 }
 
-/* Without friction a law cannot take speed along the facet, and with very much of it every law is as published, unless the
- * rock has no normal speed. */
+/* Without friction a law takes no speed along the facet. With very high friction every law is as published, unless the rock has
+ * no normal speed. */
 TEST(limits_of_the_bound)
 {
     struct line_random r = {.state = 3};
@@ -137,13 +137,13 @@ TEST(limits_of_the_bound)
             struct impact law = strike_flat(laws[l], &b, false), out = strike_flat(laws[l], &b, true);
             if (b.in.vn > 0)
                 EXPECT_SAME(out, law, vt, vn, spin);
-            b.in.vn = 0; /* grazing: there is no impulse that could take anything */
+            b.in.vn = 0; /* grazing: no impulse to take anything */
             EXPECT(fabs(strike_flat(laws[l], &b, true).vt), >=, fabs(b.in.vt));
         }
 }
 
-/* The law arm has friction of its own. */
-TEST(the_bound_leaves_the_law_arm_as_it_is)
+/* The law arm has its own friction. */
+TEST(the_bound_does_not_affect_the_law_arm)
 {
     struct line_random r = {.state = 4};
     for (int i = 0; i < IMPACTS / 10; i++) {

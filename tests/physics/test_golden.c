@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures of Ciabocco, Boccia and Ripa 2009 and of the equations they use, to the digits that are known. The paper's figures
- * are those of the published laws: its scenes have no friction bound (paper_site_init()). */
+/* Figures of Ciabocco, Boccia and Ripa 2009 and of their equations, to all known digits. The paper's figures belong to the
+ * published laws: its scenes have no friction bound (paper_site_init()). */
 #include "expect.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 static struct paper_site site;
 static struct paper_plot one, two, plot;
 
-/* Before each test. */
+/* Set-up of each test. */
 static int open_paper(void **state)
 {
     (void)state;
@@ -23,7 +23,7 @@ static int open_paper(void **state)
     return 0;
 }
 
-/* The value rounds to `expected`, which is printed with this many decimals. */
+/* The value rounds to `expected`, printed with this many decimals. */
 static void expect_decimals(double value, double expected, int decimals)
 {
     double off = 0.5 * pow(10, -decimals);
@@ -31,7 +31,7 @@ static void expect_decimals(double value, double expected, int decimals)
         fail_msg("%.17g is not %.*f", value, decimals, expected);
 }
 
-/* The value is `expected` but for the rounding of some operations. */
+/* The value equals `expected` within the rounding of a few operations. */
 static void expect_exact(double value, double expected)
 {
     if (!(fabs(value - expected) <= 8e-16 * fabs(expected)))
@@ -56,8 +56,8 @@ TEST_WITH(rock_of_table_2, open_paper, NULL)
          (rock.axes[0] + 2 * rock.axes[1] + 4 * rock.axes[2], 3 * 0.56 + 4 * 0.8),
          (rock.moment, 0.5 * rock.mass * 0.34 * 0.34));
     expect_decimals(0.5 * rock.mass * 20.94 * 20.94 / 1e3, 112.319, 3);              /* Table 5's mean speed */
-    expect_decimals(0.5 * rock.mass * 15.6 * 15.6 / 1e3, 62.337, 3);                 /* the speed seen by video */
-    expect_decimals(0.5 * rock.mass * (20.94 * 20.94 - 15.6 * 15.6) / 1e3, 50.0, 1); /* like for like */
+    expect_decimals(0.5 * rock.mass * 15.6 * 15.6 / 1e3, 62.337, 3);                 /* speed in the video */
+    expect_decimals(0.5 * rock.mass * (20.94 * 20.94 - 15.6 * 15.6) / 1e3, 50.0, 1); /* the same comparison as the paper's */
 }
 
 TEST_WITH(rock_shapes, open_paper, NULL)
@@ -132,7 +132,7 @@ TEST_WITH(impacts_at_the_limits_of_crsp, open_paper, NULL)
     struct ground_point at = {.rn = 0.3, .rt = 0.8, .radius = 0.5, .k = 0.4};
     struct impact out = law_crsp.struck((struct impact){1, 0, -10}, &at);
     EXPECT(out.vt, <, 0);
-    EXPECT(out.spin, <, 0); /* without speed the spin says where to */
+    EXPECT(out.spin, <, 0); /* without speed the spin sets the direction */
     out = law_crsp.struck((struct impact){1, -2, 10}, &at);
     EXPECT(out.vt, <, 0);
     out = law_crsp.struck((struct impact){9.144, 0, 0}, &at); /* 30 ft/s */
@@ -160,7 +160,7 @@ struct bounded_row {
     bool as_published;
 };
 
-/* The law and the bound of friction, on the segment itself. */
+/* Apply the law and the friction bound on the segment itself. */
 static struct impact strike_flat(const struct contact_law *law, const struct ground_point *at, struct impact in)
 {
     double spin = in.spin;
@@ -195,9 +195,9 @@ TEST_WITH(impacts_with_the_friction_bound, open_paper, NULL)
     }
 }
 
-/* ---- ways ---- */
+/* ---- trajectories ---- */
 
-TEST_WITH(slope_chains_as_table_3, open_paper, NULL)
+TEST_WITH(slope_segments_chain_as_in_table_3, open_paper, NULL)
 {
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
     static const double heights[] = {126, 106, 86, 76, 66, 61, 56, 46, 36, 26, 16, 6, 2, 0};
@@ -238,7 +238,7 @@ static void rolling_and_resting(enum ceduo_law law, double x, uint64_t contacts)
     static const double pz[] = {0, -2, -2, -1.8, -3, -3, -3.2, -2.9, -2.9};
     struct line_scene s;
     line_scene_init(&s, LENGTH(px), px, pz, (struct line_ground){.3, .99, .1}, .34, law);
-    s.scene.simulation.friction_bound = false; /* golden figures of the published laws and of CRSP's rolling */
+    s.scene.simulation.friction_bound = false; /* golden figures belong to the published laws and to CRSP's rolling */
     line_scene_release(&s, 1, 0, 0, 0, 0);
     assert_int_equal(line_scene_follow(&s, &walked), CEDUO_OK);
     assert_int_equal(walked.way.end, CEDUO_AT_REST);
@@ -312,7 +312,7 @@ TEST_WITH(energy_of_tables_7_and_8, open_paper, NULL)
     expect_decimals(energy_of_both_plots(CEDUO_GSTEIGER_STEMS), 63.7469, 4);
     expect_decimals(energy_of_both_plots(CEDUO_INTERCEPTION) / 1.35, 39.87, 2); /* per 100 m */
     expect_decimals(energy_of_both_plots(CEDUO_INTERCEPTION) / 1.35, 40, 0);
-    double printed = 0; /* the paper goes on with ADC rounded to three decimals */
+    double printed = 0; /* the paper continues with ADC rounded to three decimals */
     for (int number = 1; number <= 2; number++) {
         paper_plot_init(&plot, number);
         double adc = three_decimals(ceduo_adc(&plot.stand, PAPER_B).interception);
@@ -328,8 +328,8 @@ TEST_WITH(energy_of_one_contact, open_paper, NULL)
     expect_exact(ceduo_contact_energy(&two.stand, &two.trees), 606.52);
 }
 
-/* The trees are all gone, and the rock meets the stumps alone, as each form says. */
-TEST_WITH(stumps_where_no_tree_is_left, open_paper, NULL)
+/* All trees are gone: the rock meets only the stumps, in each form. */
+TEST_WITH(stumps_without_trees, open_paper, NULL)
 {
     struct ceduo_stems felled = {.per_ha = 0, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
     struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE,
@@ -369,7 +369,7 @@ TEST_WITH(the_threshold_in_a_belt, open_paper, NULL)
     EXPECT_IS(r, (stools_per_ha, 0), (trees_per_ha, 379), (stems_per_ha, 379));
 }
 
-/* The paper says ±0.03 m. */
+/* The paper states ±0.03 m. */
 TEST_WITH(sensitivity_to_the_spacing_of_the_shoots, open_paper, NULL)
 {
     static const double change[2][2] = {{0.151, -0.131}, {0.206, -0.178}};
@@ -401,7 +401,7 @@ TEST_WITH(basal_area_of_table_1, open_paper, NULL)
     expect_decimals(ceduo_stand_basal_area(&two.stand), 8.05, 2);  /* and 8.11 */
     expect_exact(ceduo_stand_shoots(&one.stand) + ceduo_stand_trees(&one.stand), 9076);
     expect_exact(ceduo_stand_shoots(&two.stand) + ceduo_stand_trees(&two.stand), 4641);
-    one.trees.dbh_sd = 0.02; /* the mean of d2 is the mean squared and the variance */
+    one.trees.dbh_sd = 0.02; /* the mean of d2 is the squared mean plus the variance */
     expect_decimals(ceduo_stand_basal_area(&one.stand) - 750 * acos(-1) / 4 * 4e-4, 26.52, 2);
 }
 
@@ -417,7 +417,7 @@ TEST_WITH(energies_of_dorren, open_paper, NULL)
     expect_exact(ceduo_dorren_energy(.40, 1.7), 1.7 * ceduo_dorren_energy(.40, 1));
     ROWS(expect_decimals, (ceduo_dorren_share(0), .980, 3), (ceduo_dorren_share(.5), .789, 3),
          (ceduo_dorren_share(.58), .467, 3));
-    EXPECT(ceduo_dorren_share(1), ==, 0); /* -0.046, cut */
+    EXPECT(ceduo_dorren_share(1), ==, 0); /* -0.046, clamped */
     expect_decimals(ceduo_dorren_mean_share(), .558, 3);
     double sum = 0;
     for (int i = 0; i < 100000; i++)
@@ -451,7 +451,7 @@ TEST_WITH(volumes_of_tabacchi, open_paper, NULL)
         /* to the limits of its rectangle */
         {"ostrya-carpinifolia", 20, 30, -1.4983 + 0.038828 * 400 * 30, CEDUO_VOLUME_EQUATION},
         {"castanea-sativa", 20, 5, -2.001 + 0.036524 * 400 * 5 + 0.74466 * 20, CEDUO_VOLUME_EQUATION},
-        /* beyond the rectangle d2 h times that of its nearest point */
+        /* outside the rectangle d2 h times that of its nearest point */
         {"ostrya-carpinifolia", 4.7, 4, (-1.4983 + 0.038828 * 25 * 5) * (4.7 * 4.7 * 4) / (25 * 5), CEDUO_VOLUME_FORM_FACTOR},
         {"ostrya-carpinifolia", 36, 20, (-1.4983 + 0.038828 * 35 * 35 * 20) * (36 * 36.) / (35 * 35), CEDUO_VOLUME_FORM_FACTOR},
         {"castanea-sativa", 3, 40, (-2.001 + 0.036524 * 36 * 30 + 0.74466 * 6) * (9 * 40.) / (36 * 30),
@@ -470,7 +470,7 @@ TEST_WITH(volumes_of_tabacchi, open_paper, NULL)
     assert_int_equal(ceduo_species_find("sequoia"), -1);
 }
 
-/* A stem a little thicker or taller never takes less: there is no jump at the edge of any species' data. */
+/* A slightly thicker or taller stem never takes less: there is no jump at the edge of any species' data. */
 TEST_WITH(volumes_have_no_jump, open_paper, NULL)
 {
     size_t n;
@@ -549,12 +549,12 @@ TEST_WITH(each_stratum_takes_its_own_energy, open_paper, NULL)
 
 TEST_WITH(warnings_of_the_plots, open_paper, NULL)
 {
-    /* ADS 2: s > (n - 1)(B + d), more contacts than there are stems */
+    /* ADS 2: s > (n - 1)(B + d), more contacts than stems */
     expect_warned(&two.stand, CEDUO_WARN_BELOW_FREE_PATH, ~(unsigned)CEDUO_WARN_BELOW_FREE_PATH);
     expect_warned(&one.stand, 0, ~0U);
 }
 
-TEST_WITH(warning_near_the_jump, open_paper, NULL)
+TEST_WITH(a_warning_near_the_jump, open_paper, NULL)
 {
     /* a tenth of the spacing: from .68/1.1 = .618 to .68/.9 = .756 m */
     static const double near[] = {.619, .68, .755}, far[] = {.617, .757};
@@ -573,14 +573,14 @@ TEST_WITH(warnings_of_energies_and_spacing, open_paper, NULL)
 {
     plot.stand.energy = CEDUO_DORREN;
     expect_warned(&plot.stand, CEDUO_WARN_DORREN_THIN, CEDUO_WARN_U_ASSUMED | CEDUO_WARN_FORM_FACTOR);
-    plot.stand.fracture_ratio = NAN; /* hop hornbeam has none */
+    plot.stand.fracture_ratio = NAN; /* hop hornbeam has no ratio */
     expect_warned(&plot.stand, CEDUO_WARN_RATIO_ASSUMED, CEDUO_WARN_WIDE_SPACING);
     plot.shoots.dbh = plot.trees.dbh = .1;
     expect_warned(&plot.stand, 0, CEDUO_WARN_DORREN_THIN);
     plot.trees.dbh = .099;
     expect_warned(&plot.stand, CEDUO_WARN_DORREN_THIN, 0);
     paper_plot_init(&plot, 2);
-    plot.shoots.volume = NAN; /* 4.7 cm and 4 m lie outside the equation */
+    plot.shoots.volume = NAN; /* 4.7 cm and 4 m are outside the equation */
     expect_warned(&plot.stand, CEDUO_WARN_FORM_FACTOR, 0);
     plot.stand.u = NAN; /* hop hornbeam is not in Table 4 */
     expect_warned(&plot.stand, CEDUO_WARN_U_ASSUMED, 0);
@@ -592,7 +592,7 @@ TEST_WITH(warnings_of_energies_and_spacing, open_paper, NULL)
     expect_warned(&plot.stand, 0, CEDUO_WARN_WIDE_SPACING);
 }
 
-/* ---- the index ---- */
+/* ---- index ---- */
 
 TEST_WITH(free_runs_of_the_plots, open_paper, NULL)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sizes and weights: their laws in closed form, and that weights which are all alike change no statistics. */
+/* Sizes and weights: their laws in closed form; equal weights change no statistics. */
 #include "expect.h"
 #include "local.h"
 
@@ -15,7 +15,7 @@
 
 static double first[] = {0.02, 0.5}, second[] = {0.5, 40};
 
-static struct ceduo_scene scene_of(struct ceduo_size_class *classes, size_t n)
+static struct ceduo_scene make_scene(struct ceduo_size_class *classes, size_t n)
 {
     struct ceduo_scene scene = ceduo_scene_default();
     scene.blocks = classes;
@@ -23,8 +23,8 @@ static struct ceduo_scene scene_of(struct ceduo_size_class *classes, size_t n)
     return scene;
 }
 
-/* Blocks a year of a class above v. */
-static double above(const struct ceduo_size_class *c, double v)
+/* Return the blocks per year of a class rate_above volume v. */
+static double rate_above(const struct ceduo_size_class *c, double v)
 {
     double lo = c->volumes[0], hi = c->volumes[1], b = c->exponent;
     v = fmin(fmax(v, lo), hi);
@@ -32,11 +32,11 @@ static double above(const struct ceduo_size_class *c, double v)
     return c->per_year * share;
 }
 
-/* Weights sum to the blocks that come down, above any volume; volumes have even logarithms. */
-TEST(weights_sum_to_what_comes_down)
+/* Weights sum to the frequency of blocks rate_above any volume; volumes have evenly spaced logarithms. */
+TEST(weights_sum_to_the_frequency_of_blocks)
 {
     struct ceduo_size_class classes[] = {{3, 1.1, 2, first}, {0.05, 0, 2, second}};
-    struct ceduo_scene scene = scene_of(classes, 2);
+    struct ceduo_scene scene = make_scene(classes, 2);
     LOCAL_BY(ceduo_sizes_release) struct sizes sizes;
     assert_true(ceduo_sizes_init(&sizes, &scene));
     EXPECT_NEAR(sizes.per_year, 3.05, 1e-12);
@@ -47,16 +47,16 @@ TEST(weights_sum_to_what_comes_down)
             rate += s.volume > v ? s.weight * sizes.per_year / ROCKS : 0;
             larger += s.volume > v;
         }
-        EXPECT_NEAR(rate, above(&classes[0], v) + above(&classes[1], v), 1e-3 * rate + 1e-4);
+        EXPECT_NEAR(rate, rate_above(&classes[0], v) + rate_above(&classes[1], v), 1e-3 * rate + 1e-4);
         EXPECT_NEAR(larger / ROCKS, log(40 / v) / log(40 / 0.02), 1e-3);
     }
 }
 
-/* Of 100 rocks in a row, wherever they begin, some are of every tenth of the range. */
+/* Any 100 consecutive rocks include some from every tenth of the range. */
 TEST(every_few_rocks_have_all_sizes)
 {
     struct ceduo_size_class class = {1, 1, 2, second};
-    struct ceduo_scene scene = scene_of(&class, 1);
+    struct ceduo_scene scene = make_scene(&class, 1);
     struct sizes sizes;
     for (uint64_t seed = 1; seed < 20; seed++) {
         scene.simulation.seed = seed;
@@ -76,11 +76,11 @@ TEST(every_few_rocks_have_all_sizes)
     }
 }
 
-/* Typical rocks are of the sizes that come down. */
-TEST(typical_rocks_are_as_frequent_as_blocks)
+/* Typical rocks have the natural frequencies of sizes. */
+TEST(typical_rocks_have_the_frequencies_of_blocks)
 {
     struct ceduo_size_class class = {1, 0.8, 2, second}, both[2] = {{3, 1.1, 2, first}, {0.5, 0.8, 2, second}};
-    struct ceduo_scene scene = scene_of(&class, 1);
+    struct ceduo_scene scene = make_scene(&class, 1);
     struct sizes sizes;
     assert_true(ceduo_sizes_init(&sizes, &scene));
     double n = 0, larger = 0;
@@ -89,10 +89,10 @@ TEST(typical_rocks_are_as_frequent_as_blocks)
             n++;
             larger += ceduo_rock_size(&sizes, r).volume > 2;
         }
-    double p = above(&class, 2);
+    double p = rate_above(&class, 2);
     EXPECT_NEAR(larger / n, p, 4 * sqrt(p * (1 - p) / n));
     ceduo_sizes_release(&sizes);
-    scene = scene_of(both, 2); /* of two classes, the second of which is rarer in each range */
+    scene = make_scene(both, 2); /* two classes; the second is rarer in each range */
     assert_true(ceduo_sizes_init(&sizes, &scene));
     n = larger = 0;
     for (uint64_t r = 0; r < ROCKS; r++)
@@ -125,8 +125,8 @@ TEST(a_rock_is_scaled_as_a_whole)
 
 #define N 1000
 
-/* Values without order, and 1 - share of them that arrive. */
-static size_t some_values(struct weighted *values, double weight, size_t n)
+/* Fill unordered values; 1 - share of the rocks arrive. */
+static size_t fill_values(struct weighted *values, double weight, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         uint32_t x = (uint32_t)i * 2654435761u + 12345u;
@@ -135,15 +135,15 @@ static size_t some_values(struct weighted *values, double weight, size_t n)
     return n;
 }
 
-/* With weights that are all alike, whatever they are, everything is as without. */
-TEST(weights_that_are_alike_change_nothing)
+/* Equal weights of any size give the results without weights. */
+TEST(equal_weights_change_nothing)
 {
     static struct weighted values[N];
     for (size_t n = 0; n <= N; n += 125) {
         const double weight = 3;
         struct weight_totals all = {.n = N, .w = N * weight, .ww = N * weight * weight, .per_year = 1};
         struct weighted_sum ones = {0};
-        some_values(values, weight, n);
+        fill_values(values, weight, n);
         for (size_t i = 0; i < n; i++)
             weighted_sum_add(&ones, weight, 1);
         struct ceduo_estimate wilson = ceduo_wilson((double)n / N, (double)n / N, N);
@@ -165,20 +165,20 @@ TEST(weights_that_are_alike_change_nothing)
         EXPECT_NEAR(a.sd, b.sd, 1e-9);
         double m1 = (double)(n - 1) / (double)n, all1 = (double)(N - 1) / N; /* divided by n - 1, and by N - 1 */
         ROWS(EXPECT_NEAR, (a.se, b.se * sqrt(m1 / all1), 1e-9), (a.p50, b.p50, 0), (a.p95, b.p95, 0), (a.p99, b.p99, 0));
-        EXPECT_NEAR(a.p50_lo, b.p50_lo, 0.15); /* the normal law instead of the binomial one: a rank or two */
+        EXPECT_NEAR(a.p50_lo, b.p50_lo, 0.15); /* the normal law instead of the binomial one: one or two ranks apart */
         EXPECT_NEAR(a.p50_hi, b.p50_hi, 0.15);
-        if (n == N) /* enough for all of them */
+        if (n == N) /* enough if all count */
             ROWS(EXPECT_NEAR, (a.p95_lo, b.p95_lo, 0.05), (a.p95_hi, b.p95_hi, 0.05), (a.p99_lo, b.p99_lo, 0.05),
                  (a.p99_hi, b.p99_hi, 0.05));
         EXPECT_NEAR(a.max, b.max, 0);
     }
 }
 
-/* What a weight alone explains is no error: of all rocks the share is 1 without one, of none 0. */
-TEST(what_weights_explain_is_no_error)
+/* A share that the weights explain has no error: with a weight of all rocks it is 1, with no weight 0. */
+TEST(weights_explain_without_error)
 {
     struct weight_totals all = {.n = N, .per_year = 1};
-    struct weighted_sum ones = {0}, none = {0}, fives = {0};
+    struct weighted_sum ones = {0}, zeros = {0}, fives = {0};
     for (size_t i = 0; i < N; i++) {
         double w = i % 2 ? 0.5 : 1.5;
         all.w += w;
@@ -188,23 +188,23 @@ TEST(what_weights_explain_is_no_error)
     }
     EXPECT_NEAR(ceduo_weighted_se(&all, &ones), 0, 0);
     EXPECT_NEAR(ceduo_weighted_se(&all, &fives), 0, 0);
-    struct ceduo_estimate all_of_them = ceduo_weighted_share(&all, &ones, -1), nobody = ceduo_weighted_share(&all, &none, -1);
+    struct ceduo_estimate all_of_them = ceduo_weighted_share(&all, &ones, -1), nobody = ceduo_weighted_share(&all, &zeros, -1);
     EXPECT_NEAR(all_of_them.mean, 1, 0);
     EXPECT_NEAR(all_of_them.hi, 1, 0);
     assert_true(all_of_them.lo > 0.99 && all_of_them.lo < 1);
     EXPECT_NEAR(nobody.mean, 0, 0);
     EXPECT_NEAR(nobody.lo, 0, 0);
-    EXPECT_NEAR(nobody.hi, 3.8414588 / (N + 3.8414588), 1e-8); /* Wilson of 0 among as many rocks */
+    EXPECT_NEAR(nobody.hi, 3.8414588 / (N + 3.8414588), 1e-8); /* Wilson's bound of 0 among N rocks */
     struct weighted_sum heavy = {0};
     for (size_t i = 0; i < N; i += 2)
-        weighted_sum_add(&heavy, 1.5, 1); /* all heavy rocks and no other: the weights explain all of it */
+        weighted_sum_add(&heavy, 1.5, 1); /* all heavy rocks and no others: the weights explain all of it */
     struct ceduo_estimate known = ceduo_weighted_share(&all, &heavy, -1);
     double alike = all.w * all.w / all.ww;
     assert_int_equal(alike, 800);
     ROWS(EXPECT_NEAR, (known.mean, 0.75, 1e-12), (known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9),
          (known.hi, ceduo_wilson(.75, .75, 800).hi, 1e-9));
     all.missing = all.w / 10;
-    EXPECT_NEAR(ceduo_weighted_share(&all, &none, -1).hi, ceduo_wilson(.1, .1, 800).hi, 1e-12);
+    EXPECT_NEAR(ceduo_weighted_share(&all, &zeros, -1).hi, ceduo_wilson(.1, .1, 800).hi, 1e-12);
     all.n = 1;
     assert_true(isnan(ceduo_weighted_se(&all, &ones)));
 }
@@ -212,10 +212,10 @@ TEST(what_weights_explain_is_no_error)
 TEST(quantiles_by_hand)
 {
     const struct weighted values[] = {{1, 1}, {2, 2}, {3, 1}};
-    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a whole share is reached by its last value */
+    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a share that is reached exactly is its last value */
     ROWS(EXPECT_NEAR, (ceduo_weighted_quantile(values, 3, 0.26), 2, 0), (ceduo_weighted_quantile(values, 3, 0.75), 2, 0),
          (ceduo_weighted_quantile(values, 3, 0.76), 3, 0));
-    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* beyond all */
+    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* rate_above all values */
     assert_true(isnan(ceduo_weighted_quantile(values, 0, 0.5)));
     const struct weight_totals all = {.n = 3, .w = 4, .ww = 6, .per_year = 1};
     struct weighted one = {5, 1};
@@ -227,7 +227,7 @@ TEST(quantiles_by_hand)
 
 /* ---- hazard ---- */
 
-TEST(energies_and_classes_are_what_they_are_called)
+TEST(energies_and_classes_match_their_names)
 {
     static const struct {
         double energy;
@@ -241,8 +241,8 @@ TEST(energies_and_classes_are_what_they_are_called)
         EXPECT(ceduo_hazard_energy(i), >, ceduo_hazard_energy(i - 1));
 }
 
-/* Three rocks of a thousand arrive, one block comes down in two years. */
-TEST(few_rocks_bound_what_they_can)
+/* Three rocks of a thousand arrive, one block falls in two years. */
+TEST(few_rocks_give_bounds)
 {
     const struct weight_totals all = {.n = N, .w = N, .ww = N, .per_year = 0.5};
     struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
@@ -253,18 +253,19 @@ TEST(few_rocks_bound_what_they_can)
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
         EXPECT_NEAR(h.intensity[i].within.mean, 0.0005, 1e-15);
     assert_true(isnan(h.returns[3].energy.mean) &&
-                isnan(h.returns[3].energy.lo));  /* 0.0015 a year: less than one in 300 years */
-    EXPECT_NEAR(h.returns[3].energy.hi, 1e5, 0); /* 1/150 of the blocks: more than one of N may be by Wilson, two may not */
-    assert_true(isnan(h.returns[1].energy.hi));  /* one in 30 years is more than all three may be */
+                isnan(h.returns[3].energy.lo)); /* 0.0015 a year: less than one in 300 years */
+    EXPECT_NEAR(h.returns[3].energy.hi, 1e5,
+                0); /* 1/150 of the blocks: Wilson's bound of one in N is rate_above, of two below */
+    assert_true(isnan(h.returns[1].energy.hi)); /* one in 30 years exceeds the upper bound of all three */
     assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h, NULL));
     assert_true(isnan(h.accepted.mean));
     EXPECT_NEAR(ceduo_hazard_judged_rate(&h).mean, 0.0015, 1e-15);
-    struct ceduo_hazard none = ceduo_hazard_none();
-    ceduo_hazard_compare(&h, &none);
+    struct ceduo_hazard zeros = ceduo_hazard_none();
+    ceduo_hazard_compare(&h, &zeros);
     assert_true(isnan(h.left) && isnan(h.intensity[0].left));
 }
 
-/* Kish's effective number: 500 rocks of weight 1.9 and 500 of 0.1 are as good as 1000²/(500 (1.9² + 0.1²)) equal ones. */
+/* Kish's effective number: 500 rocks of weight 1.9 and 500 of 0.1 equal 1000²/(500 (1.9² + 0.1²)) rocks of equal weight. */
 TEST(rocks_count_by_their_weights)
 {
     const struct weight_totals all = {.n = N, .w = N, .ww = 500 * (1.9 * 1.9 + .1 * .1), .per_year = 1};
@@ -273,8 +274,8 @@ TEST(rocks_count_by_their_weights)
     EXPECT_NEAR(h.effective, 1e6 / 1810, 1e-9);
 }
 
-/* Beyond the last energy of the curve there is no other. */
-TEST(a_curve_ends_where_its_energies_do)
+/* The last energy of the curve is its maximum. */
+TEST(a_curve_ends_at_its_last_energy)
 {
     const struct weight_totals all = {.n = 2, .w = 2, .ww = 2, .per_year = 1};
     struct weighted energies[] = {{1e10, 1}, {1e10, 1}};
@@ -285,8 +286,8 @@ TEST(a_curve_ends_where_its_energies_do)
     EXPECT_NEAR(curve.at[CEDUO_HAZARD_ENERGIES - 1].rate.mean, 1, 0);
 }
 
-/* An energy that a rock has is not exceeded by it; a class begins with its lower limit; a return period is met by a rate that
- * equals it: one of a thousand blocks and ten a year, 1/100. */
+/* A rock does not exceed its own energy; a class includes its lower limit; a rate equal to 1/period meets a return period: one
+ * of a thousand blocks and ten a year, 1/100. */
 TEST(at_a_limit)
 {
     const struct weight_totals all = {.n = N, .w = N, .ww = N, .per_year = 10};
@@ -300,29 +301,29 @@ TEST(at_a_limit)
         EXPECT_NEAR(curve.at[i].rate.mean, curve.at[i].energy < 3e4 ? 0.02 : curve.at[i].energy < 3e5 ? 0.01 : 0, 1e-15);
     assert_int_equal(h.returns[2].years, 100);
     EXPECT_NEAR(h.returns[2].energy.mean, 3e5, 0);
-    assert_true(isnan(h.returns[2].energy.hi)); /* of none among 1000 up to 0.038 a year may be: no energy is too high */
+    assert_true(isnan(h.returns[2].energy.hi)); /* none of 1000 allows up to 0.038 per year: no upper energy */
     assert_true(ceduo_hazard_read(&all, energies, 2, nextafter(3e5, 0), &h, &curve));
     EXPECT_NEAR(h.accepted.mean, 0.01, 1e-15);
 }
 
-/* No rock arrives, of two hundred: nothing is known but what may be. */
-TEST(nobody_arrives)
+/* None of two hundred rocks arrives: only upper bounds are known. */
+TEST(no_rock_arrives)
 {
     const struct weight_totals all = {.n = 200, .w = 200, .ww = 200, .per_year = 1};
     struct ceduo_hazard h;
     struct ceduo_hazard_curve curve;
     assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h, &curve));
     EXPECT_NEAR(h.reach.mean, 0, 0);
-    EXPECT_NEAR(h.reach.hi, 3.8414588 / (200 + 3.8414588), 1e-8); /* Wilson of 0 among 200 */
+    EXPECT_NEAR(h.reach.hi, 3.8414588 / (200 + 3.8414588), 1e-8); /* Wilson's bound of 0 among 200 */
     assert_int_equal(curve.count, 1);
     for (size_t i = 0; i < CEDUO_RETURNS; i++)
         assert_true(isnan(h.returns[i].energy.mean) && isnan(h.returns[i].energy.lo) && isnan(h.returns[i].energy.hi));
     assert_true(isnan(h.left));
 }
 
-/* A thousand rocks of which half are small, each for 1.9 blocks, and half large, each for 0.1. None of a thousand is at most 38 of
- * 10000, and of the large ones, which alone could have more than 5 J, none of 500 is at most 5 % of 76 of 10000. So much may be at
- * least however few large ones arrive, and with each that does it is more. */
+/* A thousand rocks: half small, each for 1.9 blocks, half large, each for 0.1. None in a thousand is at most 38 of 10000. Only
+ * large ones could have more than 5 J: none of 500 is at most 5 % of 76 of 10000. The upper bound is at least this large
+ * however few large ones arrive, and increases with each arrival. */
 TEST(fewer_arrivals_raise_no_upper_end)
 {
     static struct weighted could[N];
@@ -344,7 +345,7 @@ TEST(fewer_arrivals_raise_no_upper_end)
             EXPECT_NEAR(h.accepted.hi, of_large, 1e-9);
         EXPECT(h.accepted.hi, >=, before);
         before = h.accepted.hi;
-        assert_true(ceduo_hazard_read(&all, energies, n, 10, &h, NULL)); /* as much as none could have */
+        assert_true(ceduo_hazard_read(&all, energies, n, 10, &h, NULL)); /* the bound of no arrival */
         EXPECT_NEAR(h.accepted.hi, 0, 0);
     }
     EXPECT(before, >, 1.5 * of_large);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a single hit is: a stem that is as high as the rock flies over it is none, and of stems of many diameters each
- * takes by its own, so that all together take what was given for the mean of them. */
+/* A single hit: a rock that flies over a stem does not hit it. Each stem takes energy by its own diameter, so that the mean of
+ * many is the value given for the mean diameter. */
 #include "expect.h"
 
 #include <math.h>
@@ -55,9 +55,9 @@ static void follow(uint64_t rock)
 
 /* ---- diameters ---- */
 
-/* By brauner a stem d thick of those with mean m and deviation s takes V·U·d2/(m2 + s2): the mean of d2 by the gamma law,
- * of shape (m/s)2 and scale s2/m, is shape(shape + 1)scale2 = m2 + s2. Rocks come to a stem with a chance that goes with
- * B + d: weighted with one over that, the stems that they hit are those of the wood, which take V·U on the mean. */
+/* With brauner a stem of diameter d, in a law of mean m and deviation s, takes V·U·d2/(m2 + s2): the mean of d2 by the gamma
+ * law of shape (m/s)2 and scale s2/m is shape(shape + 1)scale2 = m2 + s2. Rocks meet a stem with probability proportional to B
+ * + d: with the inverse weight the hit stems have the forest's law and take V·U on average. */
 static void expect_mean_of_all_stems(bool shoots)
 {
     const double radius = 1.5, sd = .1, given = .4 * WORK;
@@ -86,7 +86,7 @@ static void expect_mean_of_all_stems(bool shoots)
     ROWS(EXPECT, (n, >, 1e5), (se, <, one_percent), (fabs(mean), <=, 4 * se));
 }
 
-TEST(stems_of_many_diameters_take_their_given_volume_on_the_mean)
+TEST(stems_of_many_diameters_take_their_mean_volume)
 {
     expect_mean_of_all_stems(false);
     expect_mean_of_all_stems(true);
@@ -94,8 +94,8 @@ TEST(stems_of_many_diameters_take_their_given_volume_on_the_mean)
 
 /* ---- heights ---- */
 
-/* Stem number i of the way of a rock, when all stems have this height. */
-static struct ceduo_stem_encounter stem_of_height(uint64_t rock, size_t i, double height)
+/* Return stem number i of a rock's trajectory if all stems have this height. */
+static struct ceduo_stem_encounter find_stem(uint64_t rock, size_t i, double height)
 {
     uint64_t hits = 0;
     kind.height = height;
@@ -104,7 +104,7 @@ static struct ceduo_stem_encounter stem_of_height(uint64_t rock, size_t i, doubl
     for (size_t k = 0; k < passed.count; k++)
         hits += passed.stems[k].hit;
     assert_int_equal(passed.way.stems_hit, hits);
-    for (size_t k = 0; k < i; k++) /* it falls: over those before it is higher */
+    for (size_t k = 0; k < i; k++) /* the rock falls: it is higher over earlier stems */
         assert_false(passed.stems[k].hit);
     return passed.stems[i];
 }
@@ -116,15 +116,15 @@ TEST(a_stem_as_high_as_the_rock_flies_is_not_hit)
             plant(200, .3, shoots);
             line_scene_release(&scene, 0, 30, 40, 0, 0);
             for (size_t i = 0; i < 5; i++) {
-                struct ceduo_stem_encounter low = stem_of_height(rock, i, 1);
+                struct ceduo_stem_encounter low = find_stem(rock, i, 1);
                 assert_false(low.hit);
                 EXPECT(low.clearance, >, 1);
-                struct ceduo_stem_encounter at = stem_of_height(rock, i, low.clearance);
+                struct ceduo_stem_encounter at = find_stem(rock, i, low.clearance);
                 EXPECT_SAME(at, low, x, clearance);
                 EXPECT(at.clearance, ==, at.height);
                 assert_false(at.hit);
                 EXPECT(at.taken, ==, 0);
-                struct ceduo_stem_encounter higher = stem_of_height(rock, i, nextafter(low.clearance, INFINITY));
+                struct ceduo_stem_encounter higher = find_stem(rock, i, nextafter(low.clearance, INFINITY));
                 EXPECT_SAME(higher, low, x, clearance);
                 assert_true(higher.hit);
                 EXPECT(higher.taken, >, 0);
@@ -132,17 +132,17 @@ TEST(a_stem_as_high_as_the_rock_flies_is_not_hit)
         }
 }
 
-/* Where stems are hit below a height alone it is that of the rock's middle: no stem is, however high, where it passes there. */
-TEST(a_rock_whose_middle_flies_too_high_hits_no_stem)
+/* If stems are hit only below a height, the height is that of the rock's centre: it passes over any stem below it. */
+TEST(a_rock_with_a_centre_above_the_stems_hits_none)
 {
     const double radius = .3;
     for (uint64_t rock = 0; rock < 20; rock++) {
         plant(200, radius, false);
         line_scene_release(&scene, 0, 30, 40, 0, 0);
-        double middle = stem_of_height(rock, 0, 1).clearance + radius;
+        double middle = find_stem(rock, 0, 1).clearance + radius;
         belt.stand.hit_below = middle * (1 - 1e-12);
-        assert_false(stem_of_height(rock, 0, 90).hit);
+        assert_false(find_stem(rock, 0, 90).hit);
         belt.stand.hit_below = middle * (1 + 1e-12);
-        assert_true(stem_of_height(rock, 0, 90).hit);
+        assert_true(find_stem(rock, 0, 90).hit);
     }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Keys of scenes, forests and years: fields of what they stand for are changed alone (test_table.c does so with every row).
- * Where one decides, the key must change, or old figures would stand under new values; where it does not, the key must stay,
- * or the same rocks would fly twice. */
+/* Keys of scenes, forests and years: each field is changed alone (test_table.c does so for every row). If a field affects
+ * results, the key must change, or old results would be shown for new values. Otherwise it must stay, or equal rocks would be
+ * simulated twice. */
 #include "expect.h"
 
 #include <math.h>
@@ -9,21 +9,21 @@
 
 #include "paper_site.h"
 
-/* What a key stands for, and which fields decide about it. */
+/* Subject of a key, and which fields affect it. */
 enum about {
-    FLIGHT = 1 << 0, /* of a scene: the ways of rocks where no stem stands, and what is counted of them */
-    STEMS = 1 << 1,  /* of an option: stems with the energy of brauner, each kind with a volume that is given */
-    DORREN = 1 << 2, /* the same with the energy of dorren */
-    DBHS = 1 << 3,   /* brauner, diameters that spread */
-    YEARS = 1 << 4,  /* of an option: what becomes of its forest */
+    FLIGHT = 1 << 0, /* scene: trajectories without stems, and their statistics */
+    STEMS = 1 << 1,  /* option: stems with the energy of brauner, each kind with a given volume */
+    DORREN = 1 << 2, /* as above, with the energy of dorren */
+    DBHS = 1 << 3,   /* brauner, diameters with a spread */
+    YEARS = 1 << 4,  /* option: growth and cutting of its forest */
 };
 #define WOOD    (STEMS | DORREN | DBHS | YEARS)
 #define BRAUNER (STEMS | DBHS | YEARS)
 
 static struct paper_site site;
-static double stay[] = {40, 20}; /* trees of the cutting */
+static double stay[] = {40, 20}; /* trees that the cutting retains */
 
-static uint64_t key_of(enum about about)
+static uint64_t compute_key(enum about about)
 {
     return about == FLIGHT  ? ceduo_scene_key(&site.scene)
            : about == YEARS ? ceduo_years_key(&site.option)
@@ -32,14 +32,14 @@ static uint64_t key_of(enum about about)
 
 /* ---- fields ---- */
 
-/* SPREAD: a struct ceduo_number. WORD: an enum, or an int. Members that are walked over by themselves have no row. */
+/* SPREAD: a struct ceduo_number. WORD: an enum or an int. Members with their own loop have no row. */
 enum kind { NUMBER, SPREAD, WORD, FLAG, COUNT, TEXT };
 
 struct field {
     const char *name;
     size_t offset;
     enum kind kind;
-    unsigned decides; /* about what */
+    unsigned decides; /* affected keys */
 };
 
 #define FIELD(of, member, kind, decides)                                                                                       \
@@ -47,7 +47,7 @@ struct field {
 #of "." #member, offsetof(struct of, member), kind, decides                                                            \
     }
 
-/* Makes it another of its kind; a count becomes smaller, for there is no more than is counted. */
+/* Change a value of this kind. A count decreases, because arrays have no further elements. */
 static void change(void *at, enum kind kind)
 {
     static char other[] = "another name";
@@ -84,23 +84,23 @@ static void change(void *at, enum kind kind)
 
 static void expect_decides(enum about about, uint64_t before, const char *name, const char *part, bool decides)
 {
-    if ((key_of(about) != before) != decides)
+    if ((compute_key(about) != before) != decides)
         fail_msg("%s%s, key of %d: it %s", name, part, about, decides ? "stays" : "changes");
 }
 
-/* The kind of a spread decides only where there is one. */
+/* The kind of a distribution matters only if its deviation is above 0. */
 static void walk_spread(enum about about, struct ceduo_number *n, const char *name)
 {
     const enum ceduo_spread_kind kind = n->kind, other = kind == CEDUO_NORMAL ? CEDUO_UNIFORM : CEDUO_NORMAL;
-    uint64_t before = key_of(about);
+    uint64_t before = compute_key(about);
     n->kind = other;
     expect_decides(about, before, name, ", kind without spread", false);
     change(&n->mean, NUMBER);
     expect_decides(about, before, name, ", mean", true);
-    before = key_of(about);
+    before = compute_key(about);
     n->spread = .25;
     expect_decides(about, before, name, ", spread", true);
-    before = key_of(about);
+    before = compute_key(about);
     n->kind = kind;
     expect_decides(about, before, name, ", kind", true);
 }
@@ -111,7 +111,7 @@ static void walk(enum about about, void *structure, size_t size, const struct fi
 {
     unsigned char was[KEY_SIZE_MAX];
     memcpy(was, structure, size);
-    const uint64_t before = key_of(about);
+    const uint64_t before = compute_key(about);
     for (size_t i = 0; i < n; i++) {
         const struct field *f = &fields[i];
         void *at = (char *)structure + f->offset;
@@ -122,16 +122,16 @@ static void walk(enum about about, void *structure, size_t size, const struct fi
             expect_decides(about, before, f->name, "", f->decides & about);
         }
         memcpy(structure, was, size);
-        EXPECT(key_of(about), ==, before);
+        EXPECT(compute_key(about), ==, before);
     }
 }
 
 #define WALK(about, structure, fields) walk(about, structure, sizeof *(structure), fields, LENGTH(fields))
 
-/* Numbers in a row, each of which decides. */
+/* Walk over consecutive numbers; each matters. */
 static void walk_numbers(enum about about, double *numbers, size_t n, const char *name)
 {
-    const uint64_t before = key_of(about);
+    const uint64_t before = compute_key(about);
     for (size_t i = 0; i < n; i++) {
         double was = numbers[i];
         change(&numbers[i], NUMBER);
@@ -212,7 +212,7 @@ static const struct field belt_fields[] = {
     FIELD(ceduo_belt, cut_year, NUMBER, YEARS),
 };
 
-/* The species says the volume of each stem where diameters spread, by its equation, and of what comes up after a cut. */
+/* The species gives the volume of each stem by its equation if diameters vary, and of new stems after a cut. */
 static const struct field stand_fields[] = {
     FIELD(ceduo_stand, system, WORD, 0),
     FIELD(ceduo_stand, species, WORD, DBHS | YEARS),
@@ -232,7 +232,7 @@ static const struct field stems_fields[] = {
     FIELD(ceduo_stems, dbh_sd, NUMBER, WOOD), FIELD(ceduo_stems, age, NUMBER, YEARS),
 };
 
-/* Where some stand in groups. */
+/* If some stand in groups. */
 static const struct field group_fields[] = {
     FIELD(ceduo_stems, group, WORD, WOOD),
     FIELD(ceduo_stems, group_radius, NUMBER, WOOD),
@@ -272,7 +272,7 @@ static const struct field cutting_fields[] = {
     FIELD(ceduo_cutting, retained_count, COUNT, YEARS),
 };
 
-/* ---- what is walked over ---- */
+/* ---- fields to walk over ---- */
 
 static void walk_simulation(enum about about)
 {
@@ -291,12 +291,12 @@ static void walk_option(enum about about)
     }
 }
 
-/* The paper's site, its woods cut now and then. */
+/* Open the paper's site with forests that are cut regularly. */
 static void open_site(void)
 {
     paper_site_init(&site);
     for (size_t i = 0; i < 2; i++) {
-        /* of another volume than the species before it, where stems are high enough for its equation */
+        /* a species with another volume than the one before, for stems high enough for its equation */
         site.belts[i].stand.species = ceduo_species_find("fraxinus-ornus");
         site.plots[i].shoots.height = site.plots[i].trees.height = 8;
         site.belts[i].stand.cutting =
@@ -304,7 +304,7 @@ static void open_site(void)
     }
 }
 
-TEST(whatever_decides_about_a_flight_makes_another_scene)
+TEST(inputs_of_a_flight_affect_the_scene_key)
 {
     open_site();
     ROWS(WALK, (FLIGHT, &site.scene, scene_fields), (FLIGHT, &site.scene.rock, rock_fields),
@@ -315,46 +315,46 @@ TEST(whatever_decides_about_a_flight_makes_another_scene)
         WALK(FLIGHT, &site.segments[j], segment_fields);
     WALK(FLIGHT, &site.control, control_fields);
     walk_simulation(FLIGHT);
-    walk_option(FLIGHT); /* a forest has a key of its own */
+    walk_option(FLIGHT); /* a forest has its own key */
 }
 
-/* So do the blocks that come down. */
-TEST(whatever_blocks_come_down_makes_another_scene)
+/* The frequencies of blocks matter as well. */
+TEST(block_frequencies_affect_the_scene_key)
 {
     double volumes[] = {0.1, 1, 1, 5};
     struct ceduo_size_class classes[] = {{2, 1, 2, volumes}, {1, 0, 2, volumes + 2}};
     open_site();
-    uint64_t none = key_of(FLIGHT);
+    uint64_t none = compute_key(FLIGHT);
     site.scene.blocks = classes;
     site.scene.blocks_count = 1;
-    uint64_t one = key_of(FLIGHT);
+    uint64_t one = compute_key(FLIGHT);
     EXPECT(one, !=, none);
     site.scene.blocks_count = 2;
-    EXPECT(key_of(FLIGHT), !=, one);
+    EXPECT(compute_key(FLIGHT), !=, one);
     for (size_t i = 0; i < LENGTH(classes); i++)
         WALK(FLIGHT, &classes[i], class_fields);
     walk_numbers(FLIGHT, volumes, LENGTH(volumes), "volume");
 }
 
-/* Values that change places are another scene too. */
-TEST(a_value_in_another_place_makes_another_scene)
+/* Two values exchanged make another scene. */
+TEST(exchanged_values_affect_the_scene_key)
 {
     open_site();
     site.scene.release.vx = ceduo_number(2);
     site.scene.release.vz = ceduo_number(-1);
-    uint64_t key = key_of(FLIGHT);
+    uint64_t key = compute_key(FLIGHT);
     site.scene.release.vx = ceduo_number(-1);
     site.scene.release.vz = ceduo_number(2);
-    EXPECT(key_of(FLIGHT), !=, key);
+    EXPECT(compute_key(FLIGHT), !=, key);
     site.segments[0].roughness_m = .25;
     site.segments[0].roughness_rad = NAN;
-    key = key_of(FLIGHT);
+    key = compute_key(FLIGHT);
     site.segments[0].roughness_m = NAN;
     site.segments[0].roughness_rad = .25;
-    EXPECT(key_of(FLIGHT), !=, key);
+    EXPECT(compute_key(FLIGHT), !=, key);
 }
 
-TEST(whatever_decides_about_stems_makes_another_forest)
+TEST(stems_affect_the_forest_key)
 {
     open_site();
     walk_simulation(STEMS);
@@ -371,14 +371,14 @@ TEST(whatever_decides_about_stems_makes_another_forest)
     walk_option(DBHS);
 }
 
-/* What lies low, and groups; what there is none of decides about nothing. */
-TEST(whatever_decides_about_low_wood_and_groups_makes_another_forest)
+/* Low wood and groups matter; empty ones have no effect. */
+TEST(low_wood_and_groups_affect_the_forest_key)
 {
     open_site();
     struct ceduo_stand *stand = &site.belts[0].stand;
-    uint64_t bare = key_of(STEMS);
+    uint64_t bare = compute_key(STEMS);
     stand->stumps.energy = stand->logs.energy = site.plots[0].trees.group_radius = 3;
-    EXPECT(key_of(STEMS), ==, bare);
+    EXPECT(compute_key(STEMS), ==, bare);
     stand->stumps = (struct ceduo_stumps){.per_ha = 300, .diameter = .2, .height = .3, .energy = 1e3};
     stand->logs = (struct ceduo_logs){.per_ha = 300, .length = 2, .diameter = .3, .energy = 1e3};
     site.plots[0].trees.group = 3;
@@ -386,61 +386,61 @@ TEST(whatever_decides_about_low_wood_and_groups_makes_another_forest)
          (STEMS, &site.plots[0].trees, group_fields), (YEARS, &stand->stumps, stump_fields));
 }
 
-/* The same numbers in other places are another forest. */
-TEST(stems_of_another_sort_make_another_forest)
+/* The same numbers in other members make another forest. */
+TEST(other_stems_make_another_forest)
 {
     open_site();
     struct ceduo_stand *stand = &site.belts[0].stand;
     struct ceduo_stems *shoots = &site.plots[0].shoots;
     struct ceduo_stems both[] = {site.plots[0].shoots, site.plots[0].trees};
-    uint64_t key = key_of(STEMS);
-    stand->shoots = both; /* what were trees are now shoots of the stools */
+    uint64_t key = compute_key(STEMS);
+    stand->shoots = both; /* former trees are now shoots of the stools */
     stand->shoots_count = 2;
     stand->trees_count = 0;
-    EXPECT(key_of(STEMS), !=, key);
+    EXPECT(compute_key(STEMS), !=, key);
     open_site();
     stand->trees_count = 0;
-    shoots->volume = 1.5; /* a hit takes 1.5 J, or 1.5 times what dorren says */
+    shoots->volume = 1.5; /* a hit takes 1.5 J, or 1.5 times dorren's energy */
     stand->u = 1;
-    key = key_of(STEMS);
+    key = compute_key(STEMS);
     stand->energy = CEDUO_DORREN;
     stand->fracture_ratio = 1.5;
-    EXPECT(key_of(DORREN), !=, key);
+    EXPECT(compute_key(DORREN), !=, key);
     open_site();
     shoots->dbh_sd = .02;
-    shoots->volume = NAN; /* each stem has the volume that its species has at its diameter, */
-    key = key_of(DBHS);
+    shoots->volume = NAN; /* each stem has its species' volume at its diameter, */
+    key = compute_key(DBHS);
     enum ceduo_volume_from from;
     shoots->volume = ceduo_stem_volume(stand, shoots, &from);
-    EXPECT(key_of(DBHS), !=, key); /* or all the given one on the mean */
+    EXPECT(compute_key(DBHS), !=, key); /* or all together have the given mean */
 }
 
-/* What takes as much of a rock is the same forest: half the volume with twice the work. Without stems there is none, nor by the
- * index. */
-TEST(stems_that_take_the_same_are_the_same_forest)
+/* Stems with equal energy per hit are the same forest: half the volume with twice the work. Without stems there is no forest,
+ * not even for the index. */
+TEST(stems_with_equal_energy_are_the_same_forest)
 {
     open_site();
     struct ceduo_stand *stand = &site.belts[0].stand;
     stand->trees_count = 0;
     stand->u = 1000;
     site.plots[0].shoots.volume = 2;
-    uint64_t key = key_of(STEMS);
+    uint64_t key = compute_key(STEMS);
     stand->u = 2000;
     site.plots[0].shoots.volume = 1;
-    EXPECT(key_of(STEMS), ==, key);
+    EXPECT(compute_key(STEMS), ==, key);
     stand->shoots_count = 0;
-    key = key_of(STEMS);
-    site.belts[0].to -= 1; /* of a belt without stems */
-    EXPECT(key_of(STEMS), ==, key);
+    key = compute_key(STEMS);
+    site.belts[0].to -= 1; /* a belt without stems */
+    EXPECT(compute_key(STEMS), ==, key);
     EXPECT(key, !=, 0);
     site.belts[1].stand.shoots_count = site.belts[1].stand.trees_count = 0;
-    EXPECT(key_of(STEMS), ==, 0);
+    EXPECT(compute_key(STEMS), ==, 0);
     open_site();
     site.scene.simulation.contact_model = CEDUO_INDEX;
-    EXPECT(key_of(STEMS), ==, 0);
+    EXPECT(compute_key(STEMS), ==, 0);
 }
 
-/* As many shoots of three cohorts, of which the last two have each other's share. */
+/* The same number of shoots in three cohorts, with the shares of the last two exchanged. */
 TEST(cohorts_of_another_share_make_another_forest)
 {
     open_site();
@@ -452,13 +452,13 @@ TEST(cohorts_of_another_share_make_another_forest)
     }
     site.belts[0].stand.shoots = cohorts;
     site.belts[0].stand.shoots_count = LENGTH(cohorts);
-    uint64_t key = key_of(STEMS);
+    uint64_t key = compute_key(STEMS);
     cohorts[1].per_ha = 3000;
     cohorts[2].per_ha = 2000;
-    EXPECT(key_of(STEMS), !=, key);
+    EXPECT(compute_key(STEMS), !=, key);
 }
 
-TEST(whatever_decides_about_growth_makes_other_years)
+TEST(inputs_of_growth_affect_the_years_key)
 {
     open_site();
     walk_option(YEARS);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* The kernels of lanes give the same bits as the scalar one, in every figure of a run; and speeds as the slow walk. */
+/* Vector kernels give the same bits as the scalar one in every figure of a run, and the speeds of the slow walk. */
 #include "expect.h"
 #include "local.h"
 
@@ -17,8 +17,8 @@
 #include "runs.h"
 #include "slow_scene.h"
 
-#define SCENES        FULL_OR(1200u, 700u) /* in 689 a rock flies back to a stem before the low end, where it would leave */
-#define LASTING_EVERY 600                  /* scenes of which one may go on for ever */
+#define SCENES        FULL_OR(1200u, 700u) /* in scene 689 a rock flies back to a stem before the low end, its exit */
+#define LASTING_EVERY 600                  /* one scene in this many may never end */
 #define CONTROLS_MAX  4
 #define LONG_VERTICES 4097
 #define KINDS_MAX     3 /* cohorts, classes of trees */
@@ -26,7 +26,7 @@
 static const enum ceduo_kernel lanes[] = {CEDUO_KERNEL_BEST, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512};
 #define LANES (sizeof lanes / sizeof lanes[0])
 
-/* ---- comparing ---- */
+/* ---- comparison ---- */
 
 static void expect_same_bits(const char *scene, const char *what, const void *a, const void *b, size_t bytes)
 {
@@ -36,8 +36,8 @@ static void expect_same_bits(const char *scene, const char *what, const void *a,
 
 static void compare_control(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b, size_t control)
 {
-    struct ceduo_arrivals p = arrivals_of(a, control);
-    struct ceduo_arrivals q = arrivals_of(b, control);
+    struct ceduo_arrivals p = read_arrivals(a, control);
+    struct ceduo_arrivals q = read_arrivals(b, control);
     expect_same_bits(scene, "arrivals", &p, &q, sizeof p);
     static double energies[2][5000];
     size_t n = ceduo_run_energies(a, control, energies[0], 5000);
@@ -62,8 +62,8 @@ static void compare(const char *scene, const struct ceduo_run *a, const struct c
         fail_msg("%s: %ju contacts, scalar %ju", scene, (uintmax_t)ceduo_run_contacts(b), (uintmax_t)ceduo_run_contacts(a));
     struct ceduo_stem_counts s = ceduo_run_stems(a), t = ceduo_run_stems(b);
     expect_same_bits(scene, "stems", &s, &t, sizeof s);
-    struct ceduo_ends e = ends_of(a);
-    struct ceduo_ends f = ends_of(b);
+    struct ceduo_ends e = read_ends(a);
+    struct ceduo_ends f = read_ends(b);
     expect_same_bits(scene, "ends", &e, &f, sizeof e);
     compare_places(scene, a, b, def);
 }
@@ -79,7 +79,7 @@ static struct ceduo_run *run_with(struct ceduo_run_def def, enum ceduo_kernel ke
     return run;
 }
 
-/* What arrives is the same where ways end behind the last place that is asked for. Returns the contacts saved. */
+/* Expect equal arrivals if trajectories end after the last control. Returns the contacts saved. */
 static uint64_t expect_same_arrivals(const char *scene, const struct ceduo_run *whole, const struct ceduo_run_def *def,
                                      enum ceduo_kernel kernel)
 {
@@ -88,7 +88,7 @@ static uint64_t expect_same_arrivals(const char *scene, const struct ceduo_run *
     struct ceduo_run *run = run_with(short_def, kernel, ceduo_run_rocks(whole), ceduo_run_rocks(whole));
     EXPECT(ceduo_run_contacts(run), <=, ceduo_run_contacts(whole));
     compare_places(scene, whole, run, def);
-    struct ceduo_ends ends = ends_of(run);
+    struct ceduo_ends ends = read_ends(run);
     EXPECT(ends.count[CEDUO_LEFT_SLOPE], ==, 0);
     assert_true(isnan(ends.stop_max));
     uint64_t saved = ceduo_run_contacts(whole) - ceduo_run_contacts(run);
@@ -98,16 +98,16 @@ static uint64_t expect_same_arrivals(const char *scene, const struct ceduo_run *
 
 static uint64_t saved; /* contacts */
 
-/* Runs in two steps, of one thread where it is scalar. Returns the contacts. */
+/* Compare runs in two steps, on one thread if scalar. Returns the contacts. */
 static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, uint64_t first, uint64_t rocks)
 {
     struct ceduo_run_def one = *def;
     one.threads = 1;
     struct ceduo_run *scalar = run_with(one, CEDUO_KERNEL_SCALAR, rocks, rocks);
-    static unsigned long times; /* the best is one of the others: now and then is enough */
+    static unsigned long times; /* the best kernel is one of the others: sometimes is enough */
     for (size_t i = times++ % 8 > 0; i < LANES; i++) {
-        LOCAL(ceduo_run, other) = run_with(*def, lanes[i], first, rocks);
-        compare(scene, scalar, other, def);
+        LOCAL(ceduo_run, vector) = run_with(*def, lanes[i], first, rocks);
+        compare(scene, scalar, vector, def);
     }
     uint64_t contacts = ceduo_run_contacts(scalar);
     saved += expect_same_arrivals(scene, scalar, &one, CEDUO_KERNEL_SCALAR);
@@ -167,7 +167,7 @@ static void add_places(struct wild *w, struct line_random *r)
     }
 }
 
-/* Up to three kinds of stems after a pattern. */
+/* Add up to three kinds of stems like a pattern. */
 static size_t add_kinds(struct line_random *r, const struct ceduo_stems *pattern, struct ceduo_stems kinds[KINDS_MAX])
 {
     size_t n = (size_t)line_uniform(r, 0, KINDS_MAX + 0.999);
@@ -183,7 +183,7 @@ static size_t add_kinds(struct line_random *r, const struct ceduo_stems *pattern
     return n;
 }
 
-/* A plot of the paper as it is, or with several cohorts and classes, and from few shoots to very many on a stool. */
+/* Add a plot of the paper as it is, or with several cohorts and classes, and few to very many shoots per stool. */
 static void add_stand(struct wild *w, struct line_random *r, int i)
 {
     struct ceduo_stand *stand = &w->plots[i].stand;
@@ -215,7 +215,7 @@ static void add_stand(struct wild *w, struct line_random *r, int i)
     stand->stools_per_ha = shoots / line_log_uniform(r, 1, line_chance(r, 0.2) ? 100 : 8);
 }
 
-/* Belts that may begin before the release, so that stools stand on both sides of it. */
+/* Add belts, some starting before the release, so that stools stand on both sides of it. */
 static void add_stems(struct wild *w, struct line_random *r)
 {
     struct ceduo_scene *scene = &w->line.scene;
@@ -228,7 +228,7 @@ static void add_stems(struct wild *w, struct line_random *r)
     w->line.option.belts = w->belts;
     w->line.option.belts_count = line_chance(r, 0.5) ? 1 : 2;
     w->def.option = &w->line.option;
-    if (line_chance(r, 0.5)) { /* released in the forest, and perhaps uphill */
+    if (line_chance(r, 0.5)) { /* released in the forest, perhaps uphill */
         scene->release.x.mean = from[0] + (middle - from[0]) * line_uniform(r, 0, 1);
         scene->release.vx.mean = line_uniform(r, -8, 8);
     }
@@ -261,7 +261,7 @@ static void compare_random_scenes(uint64_t count, bool arm)
         snprintf(name, sizeof name, "scene %ju", (uintmax_t)number);
         wild_init(&w, number, arm);
         if (ceduo_scene_check(&w.line.scene, NULL) != CEDUO_OK)
-            continue; /* a spread leads off the slope */
+            continue; /* a spread reaches beyond the slope */
         contacts += expect_same(name, &w.def, w.first, w.rocks);
         scenes++;
     }
@@ -280,9 +280,9 @@ TEST(random_scenes_of_rocks_that_are_not_round)
     compare_random_scenes(SCENES / 2, true);
 }
 
-/* ---- scenes of their own ---- */
+/* ---- particular scenes ---- */
 
-/* Every reading of the paper's site: laws, theta, facets, scaled Rn, forest, with and without the friction bound. */
+/* All readings of the paper's site: laws, theta, facets, scaled Rn, forest, with and without the friction bound. */
 TEST(the_papers_site)
 {
     const uint64_t rocks = FULL_OR(3000, 320);
@@ -307,7 +307,7 @@ TEST(the_papers_site)
     }
 }
 
-/* Rocks and ground vary from rock to rock, and so does the largest facet. */
+/* Make rock and ground values, and the largest facet, vary between rocks. */
 static void vary(struct ceduo_scene *scene)
 {
     scene->rock.diameter.spread = .25 * scene->rock.diameter.mean;
@@ -321,7 +321,7 @@ static void vary(struct ceduo_scene *scene)
     }
 }
 
-/* A profile with blocks of several levels, and steep places. */
+/* A profile with several levels of blocks, and steep places. */
 static void compare_on_a_long_profile(bool friction_bound, bool varies)
 {
     static struct ceduo_segment segments[LONG_VERTICES - 1];
@@ -350,7 +350,7 @@ static void compare_on_a_long_profile(bool friction_bound, bool varies)
         struct ceduo_run_def def = ceduo_run_def_default(&line.scene);
         EXPECT(expect_same("long profile", &def, 100, 400), >, 5000);
 
-        static struct paper_site site; /* uphill at first, among stems, behind which each looks for its landing again */
+        static struct paper_site site; /* uphill at first, among stems; each stem restarts the search for the landing */
         double middle = x[LONG_VERTICES / 2];
         paper_site_init(&site);
         site.scene.slope = line.scene.slope;
@@ -380,8 +380,8 @@ TEST(a_long_profile)
         compare_on_a_long_profile(kind & 1, kind & 2);
 }
 
-/* Rolls of many radii that end in a stem, at a break or at rest: on planes that are steeper than friction, gentler and rising,
- * with little roughness, where the friction bound has nearly all contacts keep the motion of the roll. */
+/* Rolls of many radii that end at a stem, at a break or at rest, on planes steeper than friction, gentler, and rising. With
+ * little roughness the friction bound keeps the motion of the roll in nearly all contacts. */
 TEST(rocks_that_roll_among_stems)
 {
     static const double x[] = {0, 40, 55, 90, 100, 140}, z[] = {0, -28, -30, -55, -53, -75};
@@ -415,7 +415,7 @@ TEST(rocks_that_roll_among_stems)
     EXPECT(contacts, >, 1000000);
 }
 
-/* ---- beside the slow walk ---- */
+/* ---- comparison with the slow walk ---- */
 
 struct facets {
     uint64_t seed, rock;
@@ -427,8 +427,8 @@ static double slow_draw(void *context, uint64_t contact)
     return line_facet_draw(f->seed, f->rock, contact);
 }
 
-/* Speed at the control of a rock on the paper's slope without forest, by the walk that shares no code with the program; NaN: it does
- * not arrive. */
+/* Return the speed at the control of a rock on the paper's slope without forest, by the walk that shares no code with the
+ * program; NaN: it does not arrive. */
 static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
 {
     struct slow_segment segments[PAPER_SEGMENTS];
@@ -460,14 +460,14 @@ static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
     return way.crossing.reached ? hypot(way.crossing.vx, way.crossing.vz) : NAN;
 }
 
-/* Ways are chaotic: one of a hundred may be turned into another by the rounding of doubles (test_slow_walk.c). */
-TEST(lanes_fly_as_the_slow_walk)
+/* Trajectories are chaotic: the rounding of doubles may change one in a hundred (test_slow_walk.c). */
+TEST(lanes_match_the_slow_walk)
 {
     enum { ROCKS = 500 };
     for (int law = 0; law < 2; law++)
         for (size_t k = 0; k < LANES; k++) {
             struct paper_site site;
-            int same = 0, arrive = 0;
+            int equal = 0, arrive = 0;
             paper_site_init(&site);
             site.scene.simulation.law = law ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
             site.scene.release.height = ceduo_number(1);
@@ -477,10 +477,10 @@ TEST(lanes_fly_as_the_slow_walk)
             for (uint64_t r = 0; r < ROCKS; r++) {
                 double slow = slow_speed(&site.scene, r);
                 arrive += !isnan(slow);
-                same += fabs(speeds[r] - slow) <= 1e-6 * slow || (isnan(speeds[r]) && isnan(slow));
+                equal += fabs(speeds[r] - slow) <= 1e-6 * slow || (isnan(speeds[r]) && isnan(slow));
             }
             EXPECT(arrive, >, ROCKS / 10);
-            EXPECT(same, >=, .99 * ROCKS);
+            EXPECT(equal, >=, .99 * ROCKS);
         }
 }
 
@@ -493,8 +493,8 @@ static void *raise_soon(void *flag)
     return NULL;
 }
 
-/* Rocks that hop on level ground for ever: the flag is seen on the way, and nothing of the block stays. */
-TEST(a_raised_flag_is_seen_by_rocks_under_way)
+/* Rocks that hop on level ground for ever: they see the flag on their trajectory, and the block is discarded. */
+TEST(rocks_stop_at_a_raised_flag)
 {
     const double x[] = {0, 1e9}, z[] = {0, 0};
     for (size_t i = 0; i < LANES; i++) {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lights where a figure is exactly its limit: an ADC below the threshold passes and one that equals it does not; a gap
- * as long as the threshold, a share of 0.05 and an energy that is accepted pass. Every equality is one of doubles, and the
- * next double beyond it decides otherwise. */
+/* Lights with a figure exactly at its limit. An ADC equal to the threshold fails; a gap equal to the threshold, a share of
+ * 0.05, and the accepted energy itself pass. All equalities are exact in doubles, and the next double decides otherwise. */
 #include "expect.h"
 #include "local.h"
 
@@ -15,8 +14,8 @@
 
 /* ---- index ---- */
 
-/* The paper's slope and control with a sphere of 3/4 m, and trees of 1/4 m in two belts: the ADC of N trees a hectare
- * is 10^4/N m, by whatever form. */
+/* The paper's slope and control with a sphere of 3/4 m, and trees of 1/4 m in two belts: the ADC of N trees per hectare is
+ * 10^4/N m in every form. */
 static struct paper_site site;
 
 static void plant_trees(double first_per_ha, double second_per_ha)
@@ -63,7 +62,7 @@ TEST(an_adc_as_long_as_the_threshold_fails)
     }
 }
 
-/* From the release at 0 to the control at 135 m, the threshold being 30 m: before, between and behind the belts. */
+/* From the release at 0 to the control at 135 m with threshold 30 m: before, between and after the belts. */
 TEST(a_gap_as_long_as_the_threshold_passes)
 {
     static const double at_limit[][4] = {{30, 67.5, 67.5, 135}, {0, 50, 80, 135}, {0, 67.5, 67.5, 105}};
@@ -81,13 +80,13 @@ TEST(a_gap_as_long_as_the_threshold_passes)
             struct ceduo_index found = assess();
             assert_true(longer ? found.longest_gap > 30 : found.longest_gap == 30);
             assert_int_equal(found.contact, longer ? CEDUO_FAIL : CEDUO_PASS);
-            assert_int_equal(found.free_run, longer ? CEDUO_FAIL : CEDUO_PASS); /* every rock runs that far there */
+            assert_int_equal(found.free_run, longer ? CEDUO_FAIL : CEDUO_PASS); /* every rock runs that far without stems */
             EXPECT(found.worst_free_run, <, .1);
         }
 }
 
-/* A belt that begins where the control is lies beyond it. */
-TEST(a_belt_from_the_control_on_is_none)
+/* A belt that begins at the control has no effect. */
+TEST(a_belt_after_the_control_has_no_effect)
 {
     plant_trees(1000, 1000);
     site.belts[0].to = 130;
@@ -95,7 +94,7 @@ TEST(a_belt_from_the_control_on_is_none)
     site.belts[1].to = site.control.x + 10;
     struct ceduo_index at = assess();
     EXPECT_IS(at, (longest_gap, 5), (length, 130), (contact, CEDUO_PASS));
-    site.belts[1].stand.trees[0].per_ha = 1; /* too thin, had it a part before the control */
+    site.belts[1].stand.trees[0].per_ha = 1; /* too thin if a part lay before the control */
     EXPECT(assess().contact, ==, CEDUO_PASS);
     site.option.belts++;
     site.option.belts_count = 1;
@@ -103,8 +102,8 @@ TEST(a_belt_from_the_control_on_is_none)
     EXPECT_IS(at, (longest_gap, site.control.x), (contact, CEDUO_FAIL), (worst_adc, INFINITY), (worst_free_run, 1));
 }
 
-/* exp(-x) of a double x is never the double 0.1 itself: the two chances next to it, 2e-17 below and above. */
-TEST(a_chance_of_a_tenth_to_run_free_is_the_most_that_passes)
+/* exp(-x) of a double x is never exactly the double 0.1: take the two nearest probabilities, 2e-17 below and above. */
+TEST(a_free_run_probability_of_a_tenth_is_the_maximum_that_passes)
 {
     plant_trees(400, 1000);
     double threshold = 25 * log(10) * (1 - 1e-15), fails = 0, passes = 0; /* over an ADC of 25 m */
@@ -122,7 +121,7 @@ TEST(a_chance_of_a_tenth_to_run_free_is_the_most_that_passes)
     EXPECT(site.scene.simulation.threshold, >, 25 * log(10) * (1 - 5e-16));
 }
 
-/* Where the stems could take exactly what a rock has, nothing is left, but nothing was cut off either. */
+/* If the stems can take exactly the rock's energy, nothing is left, but nothing was cut off either. */
 TEST(energy_that_is_just_used_up_is_not_exhausted)
 {
     paper_site_init(&site);
@@ -140,7 +139,7 @@ TEST(energy_that_is_just_used_up_is_not_exhausted)
 
 /* ---- rocks ---- */
 
-static enum ceduo_light light_of(double exceed, uint64_t unfinished)
+static enum ceduo_light judge_share(double exceed, uint64_t unfinished)
 {
     const struct ceduo_arrivals a = {
         .released = 20, .exceed.mean = exceed, .limit = CEDUO_EXCEED_MAX, .unfinished = unfinished};
@@ -149,14 +148,14 @@ static enum ceduo_light light_of(double exceed, uint64_t unfinished)
 
 TEST(a_share_of_a_twentieth_passes)
 {
-    assert_int_equal(light_of(.05, 0), CEDUO_PASS);
-    assert_int_equal(light_of(next_above(.05), 0), CEDUO_FAIL);
-    assert_int_equal(light_of(0, 1), CEDUO_PASS); /* 1 of 20 whatever it does */
-    assert_int_equal(light_of(1e-16, 1), CEDUO_UNKNOWN);
-    assert_int_equal(light_of(.05, 1), CEDUO_UNKNOWN);
+    assert_int_equal(judge_share(.05, 0), CEDUO_PASS);
+    assert_int_equal(judge_share(next_above(.05), 0), CEDUO_FAIL);
+    assert_int_equal(judge_share(0, 1), CEDUO_PASS); /* 1 in 20 in either case */
+    assert_int_equal(judge_share(1e-16, 1), CEDUO_UNKNOWN);
+    assert_int_equal(judge_share(.05, 1), CEDUO_UNKNOWN);
 }
 
-/* Rocks of 2 kg, whose 5 m/s are 25 J. */
+/* Rocks of 2 kg; at 5 m/s they have 25 J. */
 static struct line_scene flat;
 
 static void drop(double accepted)
@@ -166,16 +165,16 @@ static void drop(double accepted)
     flat.scene.simulation.rocks = 20;
 }
 
-static struct ceduo_run *fly(const struct ceduo_option *option)
+static struct ceduo_run *simulate(const struct ceduo_option *option)
 {
     return run_option(&flat.scene, option, 20, 1);
 }
 
-static struct ceduo_arrivals arrive(double accepted)
+static struct ceduo_arrivals read_share(double accepted)
 {
     drop(accepted);
-    struct ceduo_run *run = fly(NULL);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_run *run = simulate(NULL);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT(a.reached, ==, 20);
     EXPECT_IS(a.energy, (mean, 25), (max, 25));
     ceduo_run_free(run);
@@ -184,46 +183,46 @@ static struct ceduo_arrivals arrive(double accepted)
 
 TEST(a_rock_with_the_accepted_energy_does_not_exceed_it)
 {
-    struct ceduo_arrivals a = arrive(25);
+    struct ceduo_arrivals a = read_share(25);
     EXPECT_IS(a, (exceeded, 0), (exceed.mean, 0));
     assert_int_equal(ceduo_energy_light(&a), CEDUO_PASS);
-    a = arrive(next_below(25));
+    a = read_share(next_below(25));
     EXPECT_IS(a, (exceeded, 20), (exceed.mean, 1));
     assert_int_equal(ceduo_energy_light(&a), CEDUO_FAIL);
 }
 
-/* What trees between two places change at the control, of rocks with so much energy there. */
-static struct ceduo_difference by_trees(double from, double to, double accepted)
+/* Return the difference at the control made by trees between two places, for rocks with 25 J there. */
+static struct ceduo_difference compare_trees(double from, double to, double accepted)
 {
     struct ceduo_stems trees = {.per_ha = 2000, .dbh = .25, .height = 90, .volume = 1, .age = NAN};
     struct ceduo_belt belt = {.from = from, .to = to, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
     struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
     drop(accepted);
-    LOCAL(ceduo_run, through) = fly(&wood);
-    LOCAL(ceduo_run, bare) = fly(NULL);
+    LOCAL(ceduo_run, through) = simulate(&wood);
+    LOCAL(ceduo_run, bare) = simulate(NULL);
     return ceduo_run_difference(through, bare, 0);
 }
 
-/* Nor does it in a difference: some rocks are stopped by trees on the way, none exceeds, with or without the wood. */
+/* The same in a difference: trees stop some rocks, and none exceeds, with or without the forest. */
 TEST(a_difference_counts_no_rock_with_the_accepted_energy)
 {
-    struct ceduo_difference d = by_trees(1, 4, 25);
+    struct ceduo_difference d = compare_trees(1, 4, 25);
     ROWS(EXPECT, (d.reach.mean, <, 0), (d.reach.se, >, 0), (d.exceed.mean, ==, 0));
-    assert_true(isnan(d.exceed.se)); /* as no pair differs */
+    assert_true(isnan(d.exceed.se)); /* because no pair differs */
     assert_true(ceduo_pairs_are_equal(&d.exceed));
 }
 
-/* Stems from the control on make no difference to it: that is known, not estimated. */
+/* Stems after the control make no difference to it: this is exact, not estimated. */
 TEST(a_difference_by_stems_from_the_control_on_is_none)
 {
-    struct ceduo_difference d = by_trees(4, 8, 20);
+    struct ceduo_difference d = compare_trees(4, 8, 20);
     EXPECT(flat.control.x, ==, 4);
     const struct ceduo_estimate of[] = {d.reach, d.exceed, d.energy_per_released};
     for (size_t i = 0; i < 3; i++)
         EXPECT_IS(of[i], (mean, 0), (se, 0), (lo, 0), (hi, 0));
 }
 
-/* Of 20 rocks on the paper's site, one has more than the next to fastest brings: 1 of 20 passes, 2 do not. */
+/* One in 20 rocks on the paper's site exceeds the energy of the second fastest: this passes, and two in 20 do not. */
 TEST(one_rock_of_twenty_may_exceed)
 {
     double energies[20];
@@ -231,7 +230,7 @@ TEST(one_rock_of_twenty_may_exceed)
     for (int law = 0; law < CEDUO_LAW_COUNT; law++)
         for (int more = 0; more < 2; more++) {
             site.scene.simulation.law = (enum ceduo_law)law;
-            site.control.x = 40; /* which all reach */
+            site.control.x = 40; /* all rocks reach it */
             site.control.accepted = 0;
             LOCAL(ceduo_run, all) = run_option(&site.scene, NULL, 20, 1);
             assert_int_equal(ceduo_run_energies(all, 0, energies, 20), 20);
@@ -240,14 +239,14 @@ TEST(one_rock_of_twenty_may_exceed)
             EXPECT(energies[18], <, energies[19]);
             site.control.accepted = more ? next_below(energies[18]) : energies[18];
             LOCAL(ceduo_run, run) = run_option(&site.scene, NULL, 20, 1);
-            struct ceduo_arrivals a = arrivals_of(run, 0);
+            struct ceduo_arrivals a = read_arrivals(run, 0);
             assert_int_equal(a.exceeded, more ? 2 : 1);
             assert_int_equal(ceduo_energy_light(&a), more ? CEDUO_FAIL : CEDUO_PASS);
         }
 }
 
-/* An index hangs on the thin stems where either light is another without them. */
-TEST(what_hangs_on_thin_stems)
+/* An index depends on the thin stems if either light differs without them. */
+TEST(an_index_can_depend_on_thin_stems)
 {
     const enum ceduo_light lights[] = {CEDUO_PASS, CEDUO_FAIL};
     for (int i = 0; i < 16; i++) {
@@ -258,28 +257,28 @@ TEST(what_hangs_on_thin_stems)
     }
 }
 
-/* ---- what can be said ---- */
+/* ---- too few arrivals ---- */
 
-static bool says_nothing(uint64_t released, uint64_t reached, uint64_t unfinished)
+static bool has_too_few(uint64_t released, uint64_t reached, uint64_t unfinished)
 {
     const struct ceduo_arrivals a = {.released = released, .reached = reached, .unfinished = unfinished};
     return ceduo_too_few_arrivals(&a);
 }
 
-/* None, or fewer than one of a thousand where a thousand were flown. */
-TEST(hardly_a_rock_says_nothing)
+/* None, or fewer than one in a thousand of at least a thousand rocks. */
+TEST(too_few_arrivals_give_no_answer)
 {
-    assert_false(says_nothing(0, 0, 0)); /* nothing was flown */
-    assert_true(says_nothing(1, 0, 0));
-    ROWS(assert_false, (says_nothing(1, 1, 0)), (says_nothing(999, 1, 0)), (says_nothing(1000, 1, 0)));
-    assert_true(says_nothing(1001, 1, 0));
-    assert_false(says_nothing(2000, 2, 0));
-    assert_true(says_nothing(2001, 2, 0));
-    assert_false(says_nothing(1001, 1, 1)); /* which may still arrive */
-    assert_false(says_nothing(10, 0, 1));
+    assert_false(has_too_few(0, 0, 0)); /* no rocks */
+    assert_true(has_too_few(1, 0, 0));
+    ROWS(assert_false, (has_too_few(1, 1, 0)), (has_too_few(999, 1, 0)), (has_too_few(1000, 1, 0)));
+    assert_true(has_too_few(1001, 1, 0));
+    assert_false(has_too_few(2000, 2, 0));
+    assert_true(has_too_few(2001, 2, 0));
+    assert_false(has_too_few(1001, 1, 1)); /* one may still read_share */
+    assert_false(has_too_few(10, 0, 1));
 }
 
-/* The limit is a share of .05; its interval must lie on one side of it. */
+/* The limit is a share of .05; the interval must lie on one side of it. */
 TEST(a_share_is_judged_by_its_interval)
 {
     const double limit = .05;
@@ -290,13 +289,13 @@ TEST(a_share_is_judged_by_its_interval)
          (ceduo_judge_share((struct ceduo_estimate){NAN, NAN, NAN, NAN}, limit), CEDUO_UNANSWERED));
 }
 
-TEST(what_a_bare_slope_keeps_needs_no_forest)
+TEST(a_safe_bare_slope_needs_no_forest)
 {
     const struct ceduo_arrivals few = {.released = 1000, .reached = 100, .exceed.mean = .01, .exceed.hi = .02, .limit = .05};
     const struct ceduo_arrivals many = {
         .released = 1000, .reached = 900, .exceed.mean = .8, .exceed.lo = .77, .exceed.hi = .83, .limit = .05};
     const struct ceduo_arrivals none = {.released = 1000, .exceed.hi = .004, .limit = .05};
-    assert_int_equal(ceduo_judge_control(&few, NULL), CEDUO_YES); /* by the index: through no forest more come */
+    assert_int_equal(ceduo_judge_control(&few, NULL), CEDUO_YES); /* by the index: a forest never increases arrivals */
     ROWS(assert_int_equal, (ceduo_judge_control(&many, NULL), CEDUO_UNANSWERED), (ceduo_judge_control(&many, &few), CEDUO_YES),
          (ceduo_judge_control(&many, &many), CEDUO_NO));
     assert_int_equal(ceduo_judge_control(&many, &none), CEDUO_YES); /* the forest stops all of them */

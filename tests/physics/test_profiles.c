@@ -18,11 +18,11 @@
 
 /* ---- profiles ---- */
 
-static void move_vertices(struct ceduo_slope *s, double by, uint64_t seed)
+static void move_vertices(struct ceduo_slope *s, double step, uint64_t seed)
 {
     struct line_random r = {.state = seed};
     for (size_t i = 1; i + 1 < s->vertices; i++)
-        s->z[i] += by * line_uniform(&r, -1, 1);
+        s->z[i] += step * line_uniform(&r, -1, 1);
 }
 
 static size_t segments_inside(const struct ceduo_slope *slope)
@@ -34,7 +34,7 @@ static size_t segments_inside(const struct ceduo_slope *slope)
     return n;
 }
 
-/* ---- one line, one segment ---- */
+/* ---- collinear segments ---- */
 
 static struct paper_site site;
 
@@ -59,17 +59,17 @@ static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_sce
         assert_int_equal(ceduo_tracer_run(g, rock, NULL, &w, &d), CEDUO_OK);
         EXPECT_SAME(v, w, end, contacts, x, z);
         EXPECT_SAME(c, d, reached, vx, vz, spin);
-        EXPECT_NEAR(c.height, d.height, 1e-12); /* over a ground that was rounded when it was cut */
+        EXPECT_NEAR(c.height, d.height, 1e-12); /* above ground that was rounded when it was cut */
     }
 }
 
 static struct ceduo_arrivals arrivals(const struct ceduo_scene *scene)
 {
     LOCAL(ceduo_run, run) = run_option(scene, NULL, ROCKS, 1);
-    return arrivals_of(run, 0);
+    return read_arrivals(run, 0);
 }
 
-TEST(a_cut_slope_gives_the_same_ways_and_statistics)
+TEST(a_cut_slope_gives_the_same_trajectories_and_statistics)
 {
     for (int kind = 0; kind < 2 * CEDUO_LAW_COUNT; kind++) {
         init_site((enum ceduo_law)(kind / 2), kind & 1);
@@ -86,7 +86,7 @@ TEST(a_cut_slope_gives_the_same_ways_and_statistics)
     }
 }
 
-TEST(spreads_and_roughness_heights_are_those_of_the_cut_slope)
+TEST(a_cut_slope_keeps_spreads_and_roughness_heights)
 {
     init_site(CEDUO_LAW_CRSP, true);
     for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
@@ -101,7 +101,8 @@ TEST(spreads_and_roughness_heights_are_those_of_the_cut_slope)
     expect_same_ways(&site.scene, &scene);
 }
 
-/* What a double can tell from a line stays: vertices moved by a nanometre, and a sliver that is as steep as it is small. */
+/* Deviations from a line that a double can resolve stay: vertices moved by a nanometre, and a sliver as steep as it is
+ * small. */
 TEST(small_breaks_stay)
 {
     init_site(CEDUO_LAW_LUMPED, false);
@@ -117,7 +118,7 @@ TEST(small_breaks_stay)
     assert_int_equal(segments_inside(&sliver), 3);
 }
 
-/* A face keeps its foot, however narrow it is: within rounding of the profile's length too. */
+/* A face keeps its foot for any width, down to the rounding of the profile's length. */
 TEST(a_narrow_face_keeps_its_foot)
 {
     init_site(CEDUO_LAW_LUMPED, false);
@@ -131,7 +132,7 @@ TEST(a_narrow_face_keeps_its_foot)
             assert_int_equal(segments_inside(&face), 2);
         }
     LOCAL_BY(slope_free)
-    struct ceduo_slope steep = slope_new(3); /* both parts are upright, but for a hundredth of a micrometre */
+    struct ceduo_slope steep = slope_new(3); /* both parts are vertical within a hundredth of a micrometre */
     memcpy(steep.x, (double[3]){0, 1e-17, 1e-8}, sizeof(double[3]));
     memcpy(steep.z, (double[3]){0, -300, -600}, sizeof(double[3]));
     for (size_t j = 0; j < 2; j++)
@@ -141,7 +142,7 @@ TEST(a_narrow_face_keeps_its_foot)
 
 /* ---- flights over chunks ---- */
 
-/* Waves of many lengths. */
+/* Make waves of many lengths. */
 static struct ceduo_slope rough_slope(size_t vertices, double spacing, uint64_t seed)
 {
     struct ceduo_slope s = slope_new(vertices);
@@ -256,21 +257,21 @@ TEST(flights_along_teeth_touch_the_same_with_blocks)
 
 /* ---- rolls over many segments ---- */
 
-static void nobody_minds(void *context, const struct ceduo_trajectory_segment *piece)
+static void ignore_segment(void *context, const struct ceduo_trajectory_segment *piece)
 {
     (void)context;
     (void)piece;
 }
 
-/* A rock takes the same way on a fine profile, to the bit, if a callback sees its pieces. */
-TEST(rolls_are_the_same_whoever_looks_on)
+/* On a fine profile a rock has the same trajectory, to the bit, with a callback for its segments. */
+TEST(a_callback_does_not_change_rolls)
 {
-    uint64_t same = 0, all = 0;
+    uint64_t equal = 0, all = 0;
     for (int kind = 0; kind < 2 * CEDUO_LAW_COUNT; kind++) {
-        for (int by = -5; by < 0; by++) {
+        for (int step = -5; step < 0; step++) {
             init_site((enum ceduo_law)(kind / 2), kind & 1);
             LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
-            move_vertices(&fine, pow(10, by), 3);
+            move_vertices(&fine, pow(10, step), 3);
             struct ceduo_scene scene = site.scene;
             scene.slope = fine;
             LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&scene, NULL);
@@ -278,14 +279,14 @@ TEST(rolls_are_the_same_whoever_looks_on)
             for (uint64_t rock = 0; rock < 100; rock++) {
                 struct ceduo_trajectory v, w;
                 struct ceduo_crossing c, d;
-                struct ceduo_trajectory_callbacks watch = {.piece = nobody_minds};
+                struct ceduo_trajectory_callbacks watch = {.piece = ignore_segment};
                 assert_int_equal(ceduo_tracer_run(f, rock, NULL, &v, &c), CEDUO_OK);
                 assert_int_equal(ceduo_tracer_run(f, rock, &watch, &w, &d), CEDUO_OK);
-                same += v.end == w.end && v.contacts == w.contacts && v.x == w.x && v.z == w.z && c.reached == d.reached &&
-                        (!c.reached || c.vx == d.vx);
+                equal += v.end == w.end && v.contacts == w.contacts && v.x == w.x && v.z == w.z && c.reached == d.reached &&
+                         (!c.reached || c.vx == d.vx);
                 all++;
             }
         }
     }
-    EXPECT(same, ==, all);
+    EXPECT(equal, ==, all);
 }

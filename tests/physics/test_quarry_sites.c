@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Whether a calibration may be trusted: twenty small sites whose ground is known. All bounds follow from the binomial law: of a
- * calibration that is right one run in ten thousand would leave them, and the sites are always the same. bench_calibration asks
- * the same of many sites, with as many rocks as people use. */
+/* Calibrations of twenty small sites with known ground. All bounds follow from the binomial law: a correct calibration would
+ * leave them once in ten thousand runs, and the sites never change. bench_calibration does this for many sites with usual
+ * numbers of rocks. */
 #include "expect.h"
 
 #include <gsl/gsl_cdf.h>
@@ -17,8 +17,8 @@
 #define NOINLINE_COLD 1e-4
 #define TRUE_SITES    FULL_OR(400u, 200u)
 
-/* How many of n are to be so at the least where each is with probability p. */
-static unsigned fewest(unsigned n, double p)
+/* Return how many of n successes to require if each has probability p. */
+static unsigned required_successes(unsigned n, double p)
 {
     unsigned k = 0;
     while (gsl_cdf_binomial_P(k, p, n) < NOINLINE_COLD)
@@ -45,11 +45,12 @@ TEST(ranges_hold_the_truth)
         fits++;
         ceduo_calibration_free(&a);
     }
-    ROWS(EXPECT, (fits, >=, SITES - 2), (held, >=, fewest(VALUES * fits, 0.95)), (likely, >=, fewest(2 * fits, 0.95)));
-    EXPECT(narrow, >=, fits); /* 30 rocks do tell Rt; ranges as wide as the bounds would hold everything */
+    ROWS(EXPECT, (fits, >=, SITES - 2), (held, >=, required_successes(VALUES * fits, 0.95)),
+         (likely, >=, required_successes(2 * fits, 0.95)));
+    EXPECT(narrow, >=, fits); /* 30 rocks do identify Rt; ranges as wide as the bounds would contain everything */
 }
 
-TEST(what_another_law_made_is_found_out)
+TEST(observations_by_another_law_are_detected)
 {
     unsigned flagged = 0, fits = 0;
     for (size_t i = 0; i < SITES / 2; i++) {
@@ -69,20 +70,20 @@ TEST(what_another_law_made_is_found_out)
         ceduo_calibration_free(&a);
     }
     EXPECT(fits, >=, SITES / 2 - 2);
-    EXPECT(flagged, >=, fewest(fits, 0.9));
+    EXPECT(flagged, >=, required_successes(fits, 0.9));
 }
 
-/* Kolmogorov's distance from the uniform law, times the root of their number: above 2.23 in one case of ten thousand. */
-static double far_from_uniform(double *p, size_t n)
+/* Kolmogorov's distance from the uniform law times the root of n: above 2.23 with probability 1e-4. */
+static double uniform_distance(double *p, size_t n)
 {
-    double most = 0;
+    double max = 0;
     gsl_sort(p, 1, n);
     for (size_t i = 0; i < n; i++)
-        most = fmax(most, fmax((double)(i + 1) / (double)n - p[i], p[i] - (double)i / (double)n));
-    return most * sqrt((double)n);
+        max = fmax(max, fmax((double)(i + 1) / (double)n - p[i], p[i] - (double)i / (double)n));
+    return max * sqrt((double)n);
 }
 
-/* Of a ground that is true, p of what was seen there is uniform. */
+/* On the true ground, p of its observations is uniform. */
 TEST(on_the_true_ground_p_is_uniform)
 {
     double p[QUARRY_KINDS][400], one[QUARRY_KINDS];
@@ -97,5 +98,5 @@ TEST(on_the_true_ground_p_is_uniform)
     }
     EXPECT(n, >=, TRUE_SITES / 2);
     for (size_t k = 0; k < QUARRY_KINDS; k++)
-        EXPECT(far_from_uniform(p[k], n), <, 2.23);
+        EXPECT(uniform_distance(p[k], n), <, 2.23);
 }

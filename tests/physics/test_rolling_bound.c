@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rocks on planes with the friction bound: a roll on smooth ground has a closed form, and speeds depend smoothly on roughness
- * and size. Ground of talus: Rn .315, Rt .835, friction .45. All planes of the tables are steeper than friction, so that no
- * rock rests on them: every rock arrives, and a mean over those that arrive is one over all. */
+ * and size. Ground of talus: Rn .315, Rt .835, friction .45. All planes of the tables are steeper than friction, so that every
+ * rock arrives and a mean over arrivals is a mean over all. */
 #include "expect.h"
 #include "local.h"
 
@@ -15,7 +15,7 @@
 #define FRICTION   .45
 #define RISE_MAX   1.10
 #define FACTOR_MAX 2
-#define SLOWER_MAX .80 /* of the speed of a smaller block */
+#define SLOWER_MAX .80 /* ratio to the speed of a smaller block */
 
 static const struct line_ground talus = {.315, .835, FRICTION};
 static const double sizes[] = {.25, .5, 1, 2};
@@ -27,7 +27,7 @@ static double radians(double degrees)
     return degrees * acos(-1) / 180;
 }
 
-/* A plane that falls by an angle, this long along the ground from its release at 1 m on. */
+/* A plane falling at this angle, with this length along the ground after the release at 1 m. */
 static void plane(double angle, double length, double radius, enum ceduo_law law, struct line_ground ground)
 {
     const double x[] = {0, 1 + length * cos(angle)}, z[] = {0, -x[1] * tan(angle)};
@@ -41,16 +41,16 @@ static double ground_way(const struct ceduo_trajectory_segment *from, double x, 
     return hypot(x - from->x, z - from->z);
 }
 
-/* ---- the closed form of a roll ---- */
+/* ---- closed form of a roll ---- */
 
-/* A roll from a release with speed v0 along the ground, up or down. */
+/* Compare a roll from a release with speed v0 along the ground, up or down, with its closed form. */
 static void expect_roll(double angle, double v0, double k, double friction)
 {
     assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
     const struct ceduo_trajectory_segment *first = &way.pieces[0];
     double pull = (v0 < 0 ? -sin(angle) : sin(angle)) - friction * cos(angle), size = v0 * v0 + 2 * G;
-    double last = scene.x[1] - scene.scene.rock.diameter.mean / 2; /* less than a radius from the end a rock may fly out */
-    size_t up = 0;                                                 /* pieces until it stands still */
+    double last = scene.x[1] - scene.scene.rock.diameter.mean / 2; /* within a radius of the end a rock may fly out */
+    size_t up = 0;                                                 /* segments until it stops */
     while (up < way.count && way.pieces[up].x < last && (v0 < 0 ? way.pieces[up].vx1 < 0 : true))
         up++;
     EXPECT(up, >, 5);
@@ -62,10 +62,9 @@ static void expect_roll(double angle, double v0, double k, double friction)
     }
 }
 
-#define ROUGHNESS_FLAT 1e-5 /* m: facets that never throw a rock off */
+#define ROUGHNESS_FLAT 1e-5 /* m: facets that never lift a rock */
 
-/* v2 = 2 g s (sin b - mu cos b)/(1 + k) over s along the ground, whatever Rn and Rt, and whatever facets the rock meets as long
- * as none throws it off. */
+/* v2 = 2 g s (sin b - mu cos b)/(1 + k) over s along the ground, for any Rn, Rt and facets, unless a facet lifts the rock. */
 TEST(a_roll_on_a_plane_loses_to_friction_alone)
 {
     static const double degrees[] = {25, 30, 35, 40, 60};
@@ -84,7 +83,7 @@ TEST(a_roll_on_a_plane_loses_to_friction_alone)
                 expect_roll(b, 0, law == CEDUO_LAW_CRSP ? .5 : 0, FRICTION);
                 scene.scene.rock.shape = CEDUO_SPHERE;
                 double k = law == CEDUO_LAW_CRSP ? .4 : 0;
-                for (int sign = -1; sign <= 1; sign += 2) { /* that rolls already, down and up */
+                for (int sign = -1; sign <= 1; sign += 2) { /* rolling already, down and up */
                     double v0 = sign * 20;
                     line_scene_release(&scene, scene.x[1] / 2, 0, v0 * cos(b), 0, k > 0 ? v0 / sizes[i] : 0);
                     /* along the ground; less than rounding into it, so that it does not leave it */
@@ -94,7 +93,7 @@ TEST(a_roll_on_a_plane_loses_to_friction_alone)
             }
 }
 
-/* Lanes say the same of a control: every rock has this speed and lies on the ground. */
+/* Vector kernels give the same at a control: every rock has this speed and lies on the ground. */
 TEST(a_run_of_rolling_rocks_has_the_speed_of_the_closed_form)
 {
     for (int law = CEDUO_LAW_LUMPED; law <= CEDUO_LAW_CRSP; law++) {
@@ -104,15 +103,15 @@ TEST(a_run_of_rolling_rocks_has_the_speed_of_the_closed_form)
         scene.control = (struct ceduo_control){.x = 1 + 200 * cos(b), .accepted = NAN, .measured_speed = NAN};
         scene.scene.controls_count = 1;
         LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, 100, 1);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
+        struct ceduo_arrivals a = read_arrivals(run, 0);
         double speed = sqrt(2 * G * 200 * (sin(b) - FRICTION * cos(b)) / (1 + k));
         EXPECT(a.reached, ==, 100);
         ROWS(EXPECT_NEAR, (a.speed.mean, speed, 1e-11 * speed), (a.speed.max, speed, 1e-11 * speed), (a.height.max, 0, 1e-12));
     }
 }
 
-/* A flight that ends too low to go on as one is an impact all the same; the roll behind it is not. On the flat without bounce it
- * takes friction times the normal speed, and after that the roll loses (1 + k) v2/(2 g mu). */
+/* A flight that ends too low to continue is still an impact; the roll after it is not. On level ground without bounce the
+ * impact takes friction times the normal speed; then the roll stops after (1 + k) v2/(2 g mu). */
 TEST(the_first_contact_after_a_flight_is_an_impact)
 {
     const double x[] = {0, 1000}, z[] = {0, 0}, height = .002, mu = .25, v0 = 5;
@@ -123,7 +122,7 @@ TEST(the_first_contact_after_a_flight_is_an_impact)
         scene.scene.simulation.friction_bound = true;
         assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
         double impulse = mu * sqrt(2 * G * height), along = v0 - impulse;
-        /* crsp: the rim is faster than the rock now, and friction takes its spin as well, not below rolling */
+        /* crsp: the rim is now faster than the rock, and friction also takes spin, not below rolling */
         double rim = k > 0 ? fmax(v0 - impulse / k, along) : 0, u = (along + k * rim) / (1 + k);
         assert_false(way.pieces[0].rolls);
         assert_true(way.pieces[1].rolls);
@@ -136,8 +135,8 @@ TEST(the_first_contact_after_a_flight_is_an_impact)
     }
 }
 
-/* The same behind an edge, for a rock that rolled to it: from (10, 0) with v0 along the level, it lands on the slope of -m with
- * v0 (1, -2m). */
+/* The same after an edge, for a rock that rolled to it: from (10, 0) with v0 on the level, it lands on the slope of -m with v0
+ * (1, -2m). */
 TEST(the_first_contact_beyond_an_edge_is_an_impact)
 {
     const double x[] = {0, 10, 100}, m = .3, z[] = {0, 0, -90 * m}, mu = .25, v0 = 5, c = 1 / sqrt(1 + m * m);
@@ -166,8 +165,8 @@ struct arrival {
     double speed, share;
 };
 
-/* Mean speed of rocks at some lengths along a plane, released 2 m above it. */
-static void fly(double angle, double roughness, const double *length, size_t count, struct arrival *to)
+/* Compute the mean speed of rocks at some lengths along a plane, released 2 m above it. */
+static void simulate(double angle, double roughness, const double *length, size_t count, struct arrival *to)
 {
     struct ceduo_control controls[4];
     scene.segments[0].roughness_m = roughness;
@@ -178,7 +177,7 @@ static void fly(double angle, double roughness, const double *length, size_t cou
     scene.scene.controls_count = count;
     LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, ROCKS, 2);
     for (size_t i = 0; i < count; i++) {
-        struct ceduo_arrivals a = arrivals_of(run, i);
+        struct ceduo_arrivals a = read_arrivals(run, i);
         to[i] = (struct arrival){.speed = a.speed.mean, .share = a.reach.mean};
     }
 }
@@ -202,7 +201,7 @@ static void measure(double degrees, enum ceduo_law law, bool friction_bound, dou
             struct arrival a;
             plane(radians(degrees), foot + 20, sizes[i], law, talus);
             scene.scene.simulation.friction_bound = friction_bound;
-            fly(radians(degrees), roughness(j), &foot, 1, &a);
+            simulate(radians(degrees), roughness(j), &foot, 1, &a);
             EXPECT(a.share, ==, 1);
             speed[i][j] = a.speed;
         }
@@ -213,13 +212,13 @@ static bool is_small_facet(size_t size, size_t rough)
     return atan(roughness(rough) / sizes[size]) < radians(THETA_SMALL);
 }
 
-/* Largest of: the rise of speed from any roughness to a larger one; the factor, up or down, within a factor 2 of roughness,
- * both with small facets; the speed of a smaller block over that of a larger one. */
+/* Maxima of three ratios: speed at a larger roughness over that at any smaller one; the factor, up or down, within a factor 2
+ * of roughness (both with small facets); and speed of a smaller block over that of a larger one. */
 struct worst {
     double rise, factor, slower;
 };
 
-static struct worst worst_of(double speed[][ROUGH])
+static struct worst find_worst(double speed[][ROUGH])
 {
     struct worst w = {0};
     for (size_t i = 0; i < LENGTH(sizes); i++)
@@ -243,34 +242,33 @@ static void note(const char *what, double degrees, struct worst w)
                   what, degrees, w.rise, w.factor, w.slower);
 }
 
-/* With facets up to more than 35 to 60 degrees, depending on the slope, a factor 2 of roughness changes speed by more than a
- * factor 2. There the mean facet, half the largest, and friction together are far steeper than the slope, and a rock has to start
- * again and again. */
+/* With the largest facets above 35 to 60 degrees, depending on the slope, a factor 2 of roughness changes speed by more than a
+ * factor 2. The mean facet, half the largest, and friction together are then far steeper than the slope, and rocks start
+ * repeatedly. */
 TEST(speed_depends_smoothly_on_roughness_and_size)
 {
     static const double degrees[] = {30, 35, 40};
     for (size_t d = 0; d < LENGTH(degrees); d++) {
         double speed[LENGTH(sizes)][ROUGH];
         measure(degrees[d], CEDUO_LAW_CRSP, true, speed);
-        struct worst w = worst_of(speed);
+        struct worst w = find_worst(speed);
         note("crsp", degrees[d], w);
         ROWS(EXPECT, (w.rise, <=, RISE_MAX), (w.factor, <=, FACTOR_MAX), (w.slower, <=, 1 / SLOWER_MAX));
     }
 }
 
-/* The test above has power: the published law breaks all three by far. */
-TEST(the_published_law_does_not)
+/* The test above has power: the published law violates all three by far. */
+TEST(the_published_law_violates_smoothness)
 {
     double speed[LENGTH(sizes)][ROUGH];
     measure(40, CEDUO_LAW_CRSP, false, speed);
-    struct worst w = worst_of(speed);
+    struct worst w = find_worst(speed);
     note("crsp as published", 40, w);
     ROWS(EXPECT, (w.rise, >, 4), (w.factor, >, 4), (w.slower, >, 4));
 }
 
-/* In the mean the ground pushes by the weight's part across the slope, and its push leans from the normal by at most the mean
- * facet, half the largest, and the angle of friction. If the slope is steeper than both together, rocks accelerate for ever, and
- * no speed is terminal. */
+/* On average the ground pushes with the weight's component across the slope. The push leans from the normal by at most the mean
+ * facet, half the largest, and the angle of friction. On a slope steeper than their sum rocks accelerate for ever. */
 TEST(speed_is_terminal_if_facets_and_friction_hold_the_slope)
 {
     static const double lengths[] = {1000, 3000};
@@ -280,7 +278,7 @@ TEST(speed_is_terminal_if_facets_and_friction_hold_the_slope)
             struct arrival a[2];
             double s = sizes[i] * tan(largest + radians(2 + 4 * step));
             plane(b, 3010, sizes[i], CEDUO_LAW_CRSP, talus);
-            fly(b, s, lengths, 2, a);
+            simulate(b, s, lengths, 2, a);
             ROWS(EXPECT, (a[0].share, ==, 1), (a[1].share, ==, 1));
             EXPECT_NEAR(a[1].speed / a[0].speed, 1, .10);
         }

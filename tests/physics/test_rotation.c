@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stands through the years: against their closed forms, and what must hold in any stand. */
+/* Stands through the years: closed forms, and rules for any stand. */
 #include "expect.h"
 #include "local.h"
 
@@ -15,7 +15,7 @@
 #define COHORTS_MAX 4
 #define B           0.68 /* m: the paper's rock */
 
-/* ---- a stand to grow ---- */
+/* ---- a growing stand ---- */
 
 struct sample {
     struct ceduo_stand stand;
@@ -23,7 +23,7 @@ struct sample {
     double stay[COHORTS_MAX];
 };
 
-static struct sample s; /* anew before each test that is to begin with it; points into itself */
+static struct sample s; /* reset before each test that uses it; contains pointers into itself */
 
 /* Ostrya, 2500 stools with 7500 shoots of 5 cm and 60 trees of 20 cm, cut every 25 years. */
 static void init(void)
@@ -42,7 +42,7 @@ static int fresh(void **state)
     return 0;
 }
 
-static struct ceduo_grown_stand at(double first_cut, unsigned year)
+static struct ceduo_grown_stand grow_stand(double first_cut, unsigned year)
 {
     struct ceduo_grown_stand grown;
     assert_int_equal(ceduo_stand_at(&s.stand, first_cut, year, &grown), CEDUO_OK);
@@ -55,7 +55,7 @@ static void expect_same_stems(const struct ceduo_stems *a, const struct ceduo_st
         assert_memory_equal(a, b, n * sizeof *a);
 }
 
-/* Bits. */
+/* Expect two stands to be equal bit by bit. */
 static void expect_same_stand(const struct ceduo_stand *a, const struct ceduo_stand *b)
 {
     assert_int_equal(a->shoots_count, b->shoots_count);
@@ -71,20 +71,20 @@ static void expect_same_stand(const struct ceduo_stand *a, const struct ceduo_st
 
 /* ---- before the first cut ---- */
 
-TEST_WITH(year_0_is_the_stand_as_filed, fresh, NULL)
+TEST_WITH(year_0_is_the_stand_of_the_file, fresh, NULL)
 {
     s.stand.growth.sdi_most = 1; /* a measured stand is not thinned */
-    struct ceduo_grown_stand grown = at(3, 0);
+    struct ceduo_grown_stand grown = grow_stand(3, 0);
     expect_same_stand(&grown.stand, &s.stand);
     EXPECT(grown.stand.growth.sdi_most, ==, 0);
     EXPECT(grown.stand.cutting.rotation, ==, 0);
     ceduo_grown_stand_release(&grown);
     assert_null(grown.stems);
     init();
-    memset(&s.stand.growth, 0, sizeof s.stand.growth); /* unknown: for ever */
+    memset(&s.stand.growth, 0, sizeof s.stand.growth); /* NaN: for ever */
     assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER);
     for (unsigned year = 0; year < 60; year += 3) {
-        grown = at(3, year);
+        grown = grow_stand(3, year);
         expect_same_stand(&grown.stand, &s.stand);
         ceduo_grown_stand_release(&grown);
     }
@@ -97,7 +97,7 @@ TEST_WITH(an_inventory_grows_along_its_curves, fresh, NULL)
     s.stand.growth.sdi_most = 0;
     double a = -log(1 - 5. / 16) / .022, b = -log(1 - 20. / 45) / .014;
     for (unsigned t = 1; t < 200; t += 7) {
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, t);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, t);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
         double d = .16 * (1 - exp(-.022 * (a + t))), h = 6 * (1 - exp(-.035 * (a + t))) / (1 - exp(-.035 * a));
         ROWS(expect_relative, (shoot->dbh, d, 1e-13), (shoot->height, h, 1e-13), (shoot->dbh_sd, .01 * d / .05, 1e-13),
@@ -112,12 +112,12 @@ TEST_WITH(an_inventory_grows_along_its_curves, fresh, NULL)
     }
 }
 
-TEST_WITH(a_given_age_stands_over_that_of_the_curve, fresh, NULL)
+TEST_WITH(a_given_age_overrides_the_curve, fresh, NULL)
 {
     s.shoots[0].age = 8;
     s.trees[0].age = 70;
     s.stand.growth.sdi_most = 0;
-    struct ceduo_grown_stand grown = at(INFINITY, 10);
+    struct ceduo_grown_stand grown = grow_stand(INFINITY, 10);
     ROWS(expect_relative, (grown.stand.shoots[0].dbh, .05 * (1 - exp(-.022 * 18)) / (1 - exp(-.022 * 8)), 1e-14),
          (grown.stand.shoots[0].per_ha, 7500 * (3 + 13 * exp(-18. / 5)) / (3 + 13 * exp(-8. / 5)), 1e-14),
          (grown.stand.trees[0].dbh, .2 * (1 - exp(-.014 * 80)) / (1 - exp(-.014 * 70)), 1e-14));
@@ -125,43 +125,43 @@ TEST_WITH(a_given_age_stands_over_that_of_the_curve, fresh, NULL)
     EXPECT(grown.stand.trees[0].age, ==, 80);
     ceduo_grown_stand_release(&grown);
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 17);
-    s.shoots[0].age = 0; /* nothing has a dbh at 0: as if not given */
-    grown = at(INFINITY, 10);
+    s.shoots[0].age = 0; /* no stem has a diameter at age 0: ignored */
+    grown = grow_stand(INFINITY, 10);
     expect_relative(grown.stand.shoots[0].dbh, .16 * (1 - 11. / 16 * exp(-.22)), 1e-14);
     ceduo_grown_stand_release(&grown);
 }
 
-/* Where none are left on an old stool they become fewer by e in 5 years; where none were even at first, it keeps what it has. */
+/* If an old stool should have no shoots, they decrease by e in 5 years; if it began with none, it stays so. */
 TEST_WITH(no_old_shoots, fresh, NULL)
 {
     s.stand.growth.sdi_most = 0;
     s.stand.growth.shoots_old = 0;
     s.stand.stools_per_ha = 1;
-    assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER); /* nothing would come up */
-    struct ceduo_grown_stand grown = at(3, 10);
+    assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER); /* nothing would sprout */
+    struct ceduo_grown_stand grown = grow_stand(3, 10);
     expect_relative(grown.stand.shoots[0].per_ha, 7500 * exp(-2), 1e-13);
     ceduo_grown_stand_release(&grown);
     s.stand.growth.shoots_young = 0;
-    grown = at(3, 10);
+    grown = grow_stand(3, 10);
     EXPECT(grown.stand.shoots[0].per_ha, ==, 7500);
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
     ceduo_grown_stand_release(&grown);
 }
 
-/* After some 3500 years e^(-t/5) is too small for a number, but each stool keeps a shoot. */
-TEST_WITH(for_ages_a_shoot_a_stool, fresh, NULL)
+/* After some 3500 years e^(-t/5) underflows, but each stool keeps a shoot. */
+TEST_WITH(each_stool_keeps_a_shoot_for_ages, fresh, NULL)
 {
     s.stand.growth.shoots_old = 0;
     s.stand.growth.sdi_most = 0;
     for (unsigned t = 3400; t < 4000; t += 5) {
-        struct ceduo_grown_stand grown = at(INFINITY, t);
+        struct ceduo_grown_stand grown = grow_stand(INFINITY, t);
         expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-13);
         ceduo_grown_stand_release(&grown);
     }
 }
 
-/* By its curve a stem of 1e-320 m is some 1e-318 years old; what it is wide later was beyond all numbers. */
-TEST(next_to_nothing_grows_as_a_new_stem)
+/* On its curve a stem of 1e-320 m is some 1e-318 years old; its later width once overflowed. */
+TEST(a_tiny_stem_grows_like_a_new_one)
 {
     static const double given[][2] = {{1e-320, NAN}, {5e-324, NAN}, {.05, 5e-324}, {.05, 1e-300}};
     for (size_t i = 0; i < LENGTH(given); i++) {
@@ -170,7 +170,7 @@ TEST(next_to_nothing_grows_as_a_new_stem)
         s.shoots[0].age = s.trees[0].age = given[i][1];
         s.shoots[0].volume = s.trees[0].volume = 1;
         s.stand.growth.sdi_most = 0;
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, 10);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, 10);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
         ROWS(expect_relative, (shoot->dbh, .16 * (1 - exp(-.22)), 1e-13), (shoot->height, 14 * (1 - exp(-.35)), 1e-13),
              (tree->dbh, .45 * (1 - exp(-.14)), 1e-13), (tree->height, 20 * (1 - exp(-.3)), 1e-13));
@@ -181,8 +181,8 @@ TEST(next_to_nothing_grows_as_a_new_stem)
     }
 }
 
-/* With one rate for both, a stem has the same share of the greatest height as of the greatest width. */
-TEST(a_curve_gives_heights_by_widths)
+/* With one rate for both, height and diameter have the same share of their maxima. */
+TEST(a_curve_gives_heights_by_diameters)
 {
     const struct ceduo_curve curve = {.4, .03, 20, .03}, faster = {.4, .03, 20, .06};
     for (double share = 0; share < 1; share += .1) {
@@ -193,20 +193,20 @@ TEST(a_curve_gives_heights_by_widths)
     assert_true(isnan(ceduo_curve_height(&(struct ceduo_curve){.4, .03, 0, .03}, .1)));
 }
 
-TEST_WITH(thicker_than_its_curve_it_grows_no_more, fresh, NULL)
+TEST_WITH(a_stem_thicker_than_its_curve_stops_growing, fresh, NULL)
 {
     s.shoots[0] = paper_stems(4000, .16, 9);
     s.trees[0] = paper_stems(60, .60, 18);
     s.stand.growth.sdi_most = 0;
-    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, 40);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, 40);
     expect_same_stand(&grown.stand, &s.stand);
 }
 
 TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
 {
     s.stand.growth.trees.height_rate = 0;
-    assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER); /* what stays has no size */
-    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(5, 30);
+    assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER); /* the retained class has no size */
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(5, 30);
     expect_same_stems(grown.stand.trees, s.trees, 1);
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
     s.stand.cutting.retained_count = 0;
@@ -216,7 +216,7 @@ TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
     for (size_t i = 0; i < LENGTH(numbers); i++) {
         double was = *numbers[i];
         *numbers[i] = 0;
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand as_filed = at(5, 3);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand as_filed = grow_stand(5, 3);
         expect_same_stems(as_filed.stand.shoots, s.shoots, 1);
         assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER);
         *numbers[i] = was;
@@ -225,13 +225,13 @@ TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
 
 TEST_WITH(never_less_than_one_shoot_a_stool, fresh, NULL)
 {
-    s.stand.shoots_count = 2; /* 1.2 a stool */
+    s.stand.shoots_count = 2; /* 1.2 per stool */
     s.shoots[0] = paper_stems(2000, .01, 1);
     s.shoots[1] = paper_stems(1000, .08, 7);
     s.stand.growth.sdi_most = 0;
     bool reached = false;
     for (unsigned t = 1; t < 60; t++) {
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, t);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, t);
         double sum = ceduo_stand_shoots(&grown.stand);
         EXPECT(sum, >=, 2500);
         EXPECT(grown.stand.stools_per_ha, ==, 2500);
@@ -254,28 +254,28 @@ TEST_WITH(the_years_of_cuts, fresh, NULL)
     assert_false(ceduo_stand_is_cut_year(stand, INFINITY, CEDUO_NEVER));
     for (unsigned year = 0; year < 120; year++)
         EXPECT(ceduo_stand_is_cut_year(stand, -5, year), ==, (year % 25 == 20));
-    assert_false(ceduo_stand_is_cut_year(stand, 30, 5)); /* the first is the first */
+    assert_false(ceduo_stand_is_cut_year(stand, 30, 5)); /* the first cut is the first */
     s.stand.cutting.rotation = 0;
     EXPECT(ceduo_first_cut(stand, 0), ==, CEDUO_NEVER);
     assert_false(ceduo_stand_is_cut_year(stand, 0, 0));
 }
 
-TEST_WITH(by_default_it_is_cut_when_it_is_old_enough, fresh, NULL)
+TEST_WITH(by_default_a_stand_is_cut_at_rotation_age, fresh, NULL)
 {
     /* 5 cm: 17.03 years */
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(25 + log(1 - 5. / 16) / .022));
     s.stand.cutting.cohorts = 3;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(75 + log(1 - 5. / 16) / .022));
     s.stand.cutting.cohorts = 0;
-    for (unsigned age = 1; age <= 25; age++) { /* but for rounding */
+    for (unsigned age = 1; age <= 25; age++) { /* within rounding */
         s.shoots[0].dbh = .16 * (1 - exp(-.022 * age));
         assert_int_equal(ceduo_first_cut(&s.stand, NAN), age < 25 ? 25 - age : 1);
     }
-    s.shoots[0].dbh = .12; /* too old: but year 0 is the stand as filed */
+    s.shoots[0].dbh = .12; /* too old, but year 0 is the stand of the file */
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 1);
     s.shoots[0].dbh = .3;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 1);
-    s.stand.shoots_count = 0; /* only trees; those that stay are cut when they are three rotations old */
+    s.stand.shoots_count = 0; /* only trees; retained ones are cut when they are three rotations old */
     s.stand.stools_per_ha = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(75 + log(1 - 20. / 45) / .014));
     s.stay[1] = 0;
@@ -293,7 +293,7 @@ TEST_WITH(a_simple_coppice_after_its_cuts, fresh, NULL)
 {
     s.stand.growth.sdi_most = 0;
     for (unsigned tau = 0; tau < 25; tau++) {
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(4, 4 + tau);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(4, 4 + tau);
         const struct ceduo_stand *g = &grown.stand;
         assert_int_equal(g->trees_count, 2);
         for (unsigned j = 0; j < 2; j++) {
@@ -322,7 +322,7 @@ TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
     s.stand.growth.shoots_old = 6;
     s.stand.growth.sdi_most = 0;
     for (unsigned year = 0; year < 100; year++) {
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, year);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(0, year);
         const struct ceduo_stand *g = &grown.stand;
         unsigned tau = year % 13, missing = tau == 0;
         EXPECT_IS(*g, (shoots_count, 3 - missing), (stools_per_ha, 2500));
@@ -334,34 +334,34 @@ TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
         EXPECT(g->trees_count, ==, 1);
         EXPECT(g->trees[0].age, ==, 26 + tau);
     }
-    s.stand.growth.shoots_young = s.stand.growth.shoots_old = 1; /* two of three cohorts: less than one a stool */
-    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, 13);
+    s.stand.growth.shoots_young = s.stand.growth.shoots_old = 1; /* two of three cohorts: less than one per stool */
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(0, 13);
     expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-14);
     EXPECT(ceduo_stand_shoots(&grown.stand), >=, 2500);
 }
 
-TEST_WITH(a_cut_in_year_0_is_done, fresh, NULL)
+TEST_WITH(a_cut_in_year_0_is_past, fresh, NULL)
 {
-    struct ceduo_grown_stand now = at(0, 0), later = at(0, 25), rhythm = at(-50, 0);
+    struct ceduo_grown_stand now = grow_stand(0, 0), later = grow_stand(0, 25), rhythm = grow_stand(-50, 0);
     EXPECT_IS(now.stand, (shoots_count, 0), (stools_per_ha, 0), (trees_count, 2));
     expect_same_stand(&now.stand, &later.stand);
     expect_same_stand(&now.stand, &rhythm.stand);
     ceduo_grown_stand_release(&now);
     ceduo_grown_stand_release(&later);
     ceduo_grown_stand_release(&rhythm);
-    s.stand.cutting.retained_count = 0; /* nothing is left */
-    now = at(0, 0);
+    s.stand.cutting.retained_count = 0; /* no tree is retained */
+    now = grow_stand(0, 0);
     assert_true(ceduo_stand_is_bare(&now.stand));
     assert_false(now.stems);
     EXPECT(ceduo_stems_sdi(now.stand.trees, now.stand.trees_count), ==, 0);
     ceduo_grown_stand_release(&now);
 }
 
-TEST_WITH(without_cuts_it_grows_for_ever, fresh, NULL)
+TEST_WITH(a_stand_without_cuts_grows_for_ever, fresh, NULL)
 {
-    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand infinite = at(INFINITY, 1000);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand infinite = grow_stand(INFINITY, 1000);
     s.stand.cutting.rotation = 0;
-    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand never = at(3, 1000);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand never = grow_stand(3, 1000);
     expect_same_stand(&never.stand, &infinite.stand);
     expect_relative(never.stand.shoots[0].dbh, .16, 1e-6);
     expect_relative(never.stand.trees[0].dbh, .45, 1e-6);
@@ -381,7 +381,7 @@ static double index_by_hand(const struct ceduo_stems *stems, size_t count)
 
 TEST(the_density_index)
 {
-    struct paper_plot plot; /* one mean dbh each */
+    struct paper_plot plot; /* one mean diameter each */
     paper_plot_init(&plot, 1);
     expect_relative(ceduo_stems_sdi(&plot.shoots, 1), plot.shoots.per_ha * pow(6.1 / 25.4, 1.605), 1e-13);
     paper_plot_init(&plot, 2);
@@ -402,31 +402,31 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     s.stand.trees_count = s.stand.cutting.retained_count = 0;
     s.stand.growth.sdi_most = 250;
     unsigned thinned = 0, died = 0;
-    for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index goes with the number */
-        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, tau);
+    for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index is proportional to the number */
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(0, tau);
         double n = 2500 * (3 + 13 * exp(-.2 * tau)), dbh = 16 * (1 - exp(-.022 * tau));
-        double most = 250 * pow(25.4 / dbh, 1.605);
-        expect_relative(ceduo_stand_shoots(&grown.stand), fmin(n, most), 1e-12);
-        expect_relative(grown.stand.stools_per_ha, fmin(2500, most), 1e-12); /* with one shoot each at least */
-        thinned += most < n;
-        died += most < 2500;
+        double max = 250 * pow(25.4 / dbh, 1.605);
+        expect_relative(ceduo_stand_shoots(&grown.stand), fmin(n, max), 1e-12);
+        expect_relative(grown.stand.stools_per_ha, fmin(2500, max), 1e-12); /* each with at least one shoot */
+        thinned += max < n;
+        died += max < 2500;
     }
     EXPECT(thinned, >, 5);
     EXPECT(thinned, <, 20);
     EXPECT(died, >, 0);
     EXPECT(died, <, thinned);
     init();
-    s.stand.growth.sdi_most = 600; /* the trees take their part of it */
+    s.stand.growth.sdi_most = 600; /* the trees use their part of it */
     s.stand.growth.trees_sdi_most = 400;
-    struct ceduo_grown_stand grown = at(0, 24);
+    struct ceduo_grown_stand grown = grow_stand(0, 24);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
     EXPECT(grown.stand.trees[1].per_ha, ==, 30);
     double trees = index_by_hand(grown.stand.trees, 2);
     EXPECT(trees, >, 50);
     expect_relative(index_by_hand(grown.stand.shoots, grown.stand.shoots_count), 600 * (1 - trees / 400), 1e-12);
     ceduo_grown_stand_release(&grown);
-    s.stand.growth.trees_sdi_most = trees / 2; /* the trees alone are more */
-    grown = at(0, 24);
+    s.stand.growth.trees_sdi_most = trees / 2; /* the trees alone exceed it */
+    grown = grow_stand(0, 24);
     EXPECT(ceduo_stand_shoots(&grown.stand), ==, 0);
     EXPECT(grown.stand.stools_per_ha, ==, 0);
     EXPECT(grown.stand.shoots_count, ==, 0);
@@ -486,7 +486,7 @@ TEST(no_stand_gains_stems_by_growing)
         random_stand();
         double first_cut = uniform(-60, 60), before = INFINITY;
         for (unsigned year = 0; year < YEARS; year++) {
-            LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(first_cut, year);
+            LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(first_cut, year);
             double shoots = ceduo_stand_shoots(&grown.stand), sum = shoots + ceduo_stand_trees(&grown.stand);
             bool sprouts = year == 1 && ceduo_stand_sprouts(&s.stand);
             if (sum > before * (1 + 1e-12) && !sprouts && !has_new_shoots(&s.stand, first_cut, year))
@@ -508,16 +508,16 @@ TEST(no_computed_stand_is_too_dense)
         random_stand();
         const struct ceduo_growth *g = &s.stand.growth;
         for (unsigned year = 1; g->sdi_most > 0 && year < YEARS; year += 4) {
-            LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(NAN, year);
+            LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(NAN, year);
             double all = g->trees_sdi_most > 0 ? g->trees_sdi_most : .35 * g->sdi_most;
-            double most = g->sdi_most * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
+            double max = g->sdi_most * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
             double sdi = index_by_hand(grown.stand.shoots, grown.stand.shoots_count), shoots = ceduo_stand_shoots(&grown.stand);
-            EXPECT(sdi, <=, most * (1 + 1e-9));
-            thinned += most > 0 && fabs(sdi - most) < 1e-9 * most;
+            EXPECT(sdi, <=, max * (1 + 1e-9));
+            thinned += max > 0 && fabs(sdi - max) < 1e-9 * max;
             if (shoots > 0 &&
-                grown.stand.stools_per_ha < s.stand.stools_per_ha * (1 - 1e-9)) { /* one shoot on each that lives */
+                grown.stand.stools_per_ha < s.stand.stools_per_ha * (1 - 1e-9)) { /* each living stool has one shoot */
                 expect_relative(grown.stand.stools_per_ha, shoots, 1e-12);
-                expect_relative(sdi, most, 1e-9);
+                expect_relative(sdi, max, 1e-9);
                 died++;
             }
         }
@@ -526,7 +526,7 @@ TEST(no_computed_stand_is_too_dense)
     EXPECT(died, >, 1000);
 }
 
-TEST(a_rotation_later_it_is_the_same_stand)
+TEST(the_stand_repeats_after_a_rotation)
 {
     for (int i = 0; i < STANDS; i++) {
         random_stand();
@@ -536,7 +536,7 @@ TEST(a_rotation_later_it_is_the_same_stand)
             continue;
         unsigned year = first + (unsigned)uniform(0, 60);
         LOCAL_BY(ceduo_grown_stand_release)
-        struct ceduo_grown_stand now = at(given, year), later = at(given, year + 3 * rotation);
+        struct ceduo_grown_stand now = grow_stand(given, year), later = grow_stand(given, year + 3 * rotation);
         expect_same_stand(&now.stand, &later.stand);
     }
 }
@@ -550,7 +550,7 @@ static double adc_just_cut(const char *name, double stools, struct ceduo_cutting
     s.stand.cutting = cutting;
     s.stand.spacing = spacing;
     s.stand.growth.shoots_old = old;
-    struct ceduo_grown_stand grown = at(0, 0);
+    struct ceduo_grown_stand grown = grow_stand(0, 0);
     struct ceduo_adc adc = ceduo_adc(&grown.stand, B);
     double value = ceduo_adc_value(&adc, ceduo_adc_rule(&grown.stand, B, CEDUO_RULE_AUTO));
     print_message("%s, just cut: ADC %.4f m\n", name, value);
@@ -558,7 +558,7 @@ static double adc_just_cut(const char *name, double stools, struct ceduo_cutting
     return value;
 }
 
-/* Ciabocco et al. 2009: right after its cut only the selection coppice has contacts nearer than 30 m. */
+/* Ciabocco et al. 2009: just after its cut only the selection coppice has contacts less than 30 m apart. */
 TEST(just_cut_only_the_selection_coppice_protects)
 {
     double simple[] = {30, 30}, standards[] = {100, 50, 20, 10}, selection[] = {40}, large[] = {125, 125};

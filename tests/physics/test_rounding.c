@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The four rounding modes of IEEE 754: what has a closed form comes out the same to 1e-12, statistics within their
- * error. How far single ways part: tests/bench/bench_rounding.c. */
+/* The four rounding modes of IEEE 754: closed forms agree to 1e-12, statistics within their error. bench_rounding.c measures
+ * how far single trajectories diverge. */
 #include "expect.h"
 
 #include <fenv.h>
@@ -22,7 +22,7 @@ static void expect_near(double got, double want)
         fail_msg("%.17g, not %.17g", got, want);
 }
 
-/* Follows rock 0 under a rounding mode; all else is done in the usual one. */
+/* Simulate rock 0 under a rounding mode, and everything else in the default one. */
 static void follow(const struct line_scene *s, int mode, struct line_way *way)
 {
     assert_int_equal(fesetround(mode), 0);
@@ -50,7 +50,7 @@ TEST(a_flight_onto_a_slope)
     }
 }
 
-/* A facet at 45 degrees turns a fall by half a right angle, however short it is: its rock leaves with what is left of the energy. */
+/* A facet at 45 degrees turns a fall by half a right angle, however short: the rock leaves with the remaining energy. */
 TEST(the_shortest_facet)
 {
     static const double shortest[] = {5e-324, 1.5e-323, 1e-310, 1e-290, 1};
@@ -65,7 +65,7 @@ TEST(the_shortest_facet)
             assert_true(vx * vx + vz * vz <= 2 * 9.81 * 5 * (1 + EXACT));
             if (law == CEDUO_LAW_LUMPED)
                 expect_near(vx, sqrt(2 * 9.81 * 5));
-            const double wall[] = {0, -1, -20}; /* as steep as can be: what falls along it keeps all of its speed */
+            const double wall[] = {0, -1, -20}; /* as steep as possible: a fall along it keeps all speed */
             line_scene_init(&scene, 3, x, wall, (struct line_ground){1, 1, 0}, 1, (enum ceduo_law)law);
             line_scene_release(&scene, 0, 5, 0, 0, 0);
             assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
@@ -74,14 +74,14 @@ TEST(the_shortest_facet)
         }
 }
 
-/* On the flat from speed v a rock without bounce stops after (1 + k) v2 / (2 g mu), whatever the law. */
-TEST(the_way_to_a_stop)
+/* On level ground a rock without bounce stops after (1 + k) v2 / (2 g mu) from speed v, under every law. */
+TEST(the_distance_to_a_stop)
 {
     const double x[] = {0, 1000}, z[] = {0, 0};
     for (int law = 0; law < CEDUO_LAW_COUNT; law++)
         for (size_t m = 0; m < LENGTH(modes); m++) {
             line_scene_init(&scene, 2, x, z, (struct line_ground){.5, 1, .3}, 1, (enum ceduo_law)law);
-            double k = law == CEDUO_LAW_LUMPED ? 0 : .4; /* a sphere, which rolls */
+            double k = law == CEDUO_LAW_LUMPED ? 0 : .4; /* a rolling sphere */
             line_scene_release(&scene, 10, 0, 5, 0, k > 0 ? 5 : 0);
             follow(&scene, modes[m], &way);
             assert_int_equal(way.way.end, CEDUO_AT_REST);
@@ -89,13 +89,13 @@ TEST(the_way_to_a_stop)
         }
 }
 
-/* Table 3 of the paper without roughness, the first two contacts of crsp: golden to four digits, and the same under every
- * mode to 1e-12. */
+/* Table 3 of the paper without roughness, the first two contacts of crsp: golden to four digits, and equal in every mode to
+ * 1e-12. */
 TEST(the_first_contacts_on_the_slope_of_table_3)
 {
     static struct line_way near;
     line_scene_init(&scene, PAPER_VERTICES, paper_x, paper_y, (struct line_ground){.31, .83, .5}, .34, CEDUO_LAW_CRSP);
-    scene.scene.simulation.friction_bound = false; /* the golden figures are those of the published law */
+    scene.scene.simulation.friction_bound = false; /* the golden figures belong to the published law */
     scene.segments[0].rt.mean = .87;
     line_scene_release(&scene, 5, 1, 1, 0, 0);
     follow(&scene, FE_TONEAREST, &near);
@@ -125,7 +125,7 @@ static struct ceduo_arrivals arrive(const struct ceduo_scene *s, int mode, doubl
     enum ceduo_status done = made == CEDUO_OK ? ceduo_run_extend(run, ROCKS) : made;
     assert_int_equal(fesetround(FE_TONEAREST), 0);
     assert_int_equal(done, CEDUO_OK);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     *contacts = (double)ceduo_run_contacts(run) / ROCKS;
     ceduo_run_free(run);
     return a;
@@ -152,12 +152,12 @@ TEST(statistics_agree_within_their_error)
             struct ceduo_arrivals a = arrive(&site.scene, modes[m], &contacts);
             expect_within("reach", a.reach.mean, near.reach.mean, (near.reach.hi - near.reach.lo) / 3.92);
             moved += fabs(contacts - contacts0);
-            if (near.reached < 100) /* too few to have a mean */
+            if (near.reached < 100) /* too few for a mean */
                 continue;
             ROWS(expect_within, ("speed", a.speed.mean, near.speed.mean, near.speed.se),
                  ("energy", a.energy.mean, near.energy.mean, near.energy.se),
                  ("height", a.height.mean, near.height.mean, near.height.se));
-            EXPECT(a.speed.mean, !=, near.speed.mean); /* the mode was another one indeed */
+            EXPECT(a.speed.mean, !=, near.speed.mean); /* the mode did change the result */
         }
         expect_within("contacts", moved / contacts0, 0, .01);
     }

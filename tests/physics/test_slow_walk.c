@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The program's walk beside the slow one, rock by rock, on the same facet draws. Ways are chaotic: what begins as the
- * rounding of doubles grows from contact to contact, and a decision on the knife's edge turns it into another way. A way
- * that differs is therefore excused only where the slow walk itself, with its start, its rock and its draws changed by
- * 1e-13 of their size, differs from itself as much, at the same contact; or where the rock's energy had fallen below the
- * rounding of its height, so that a double cannot tell whether it climbs over the next vertex, or where nothing but
- * rounding says which way it rolls (Rt = 0 leaves no speed along the ground). Few may need any of that. */
+/* The program's walk and the slow one, rock by rock, with the same facet draws.
+ *
+ * Trajectories are chaotic: a rounding error grows from contact to contact, and a decision on the knife's edge changes the
+ * rest. A difference is therefore is_excused only in three cases: - the slow walk with start, rock and draws changed by 1e-13 of
+ * their size differs from itself equally at the same contact; - the rock's energy was below the rounding of its height, so that
+ * a double cannot tell if it passes the next vertex; - rounding alone decides the direction of a roll (Rt = 0 leaves no speed
+ * along the ground). Few rocks may need an excuse. */
 #include "expect.h"
 
 #include <math.h>
@@ -15,25 +16,24 @@
 #include "paper_site.h"
 #include "slow_scene.h"
 
-#define CONTACTS   3000 /* of a way are compared; a longer one is not followed to its end */
-#define SAME       1e-6 /* relative: the same */
-#define SAME_FIRST 1e-9 /* relative, at the first contact */
-#define OTHERS     24   /* changed slow walks */
+#define CONTACTS   3000 /* compared per trajectory; a longer one is cut off */
+#define SAME       1e-6 /* relative difference that counts as equal */
+#define SAME_FIRST 1e-9 /* the same at the first contact */
+#define PERTURBED  24   /* perturbed slow walks */
 #define CHANGE     1e-13
-#define STILL      1e-14 /* of g × length: less energy than this per kilogram is lost in the rounding of the height */
+#define STILL      1e-14 /* in units of g × length: less energy than this per kilogram vanishes in the rounding of the height */
 
-/* What a rock has after a contact: where it is and how it leaves; the program tells the speed of the roll where one
- * begins. */
+/* State of a rock after a contact. The program reports the speed of the roll if one begins. */
 struct state {
     bool known, rolls;
     double v[5]; /* x, z, vx, vz, spin */
 };
 
-/* A way as both walks tell it. */
+/* A trajectory, from either walk. */
 struct trace {
     struct state after[CONTACTS + 1];
     uint64_t contacts;
-    int end; /* enum ceduo_end; -1: not followed to its end */
+    int end; /* enum ceduo_end; -1: cut off */
     double x, z;
     bool reached;
     double crossing[4]; /* vx, vz, spin, height */
@@ -41,7 +41,7 @@ struct trace {
 
 static struct trace fast, slow, changed;
 
-/* ---- the program's walk ---- */
+/* ---- program's walk ---- */
 
 static void note_piece(void *context, const struct ceduo_trajectory_segment *p)
 {
@@ -67,12 +67,12 @@ static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct tr
     memcpy(t->crossing, (double[4]){c.vx, c.vz, c.spin, c.height}, sizeof t->crossing);
 }
 
-/* ---- the slow walk ---- */
+/* ---- slow walk ---- */
 
 struct slow_context {
     struct trace *t;
     uint64_t seed, rock, contact;
-    struct line_random *change; /* NULL: none */
+    struct line_random *change; /* NULL: no perturbation */
 };
 
 static double nudge(double v, struct line_random *r)
@@ -94,7 +94,7 @@ static void note_contact(void *context, double x, double z, double vx, double vz
         c->t->after[c->contact + 1] = (struct state){true, false, {x, z, vx, vz, spin}};
 }
 
-/* The height that rounds to that of the ground at x, where the rock lies on it. */
+/* Return the height that rounds to that of the ground at x, for a rock that lies on it. */
 static double on_ground(const struct ceduo_slope *s, double x)
 {
     size_t j = ceduo_slope_segment(s, x);
@@ -144,7 +144,7 @@ static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct li
     memcpy(t->crossing, (double[4]){c->vx, c->vz, c->spin, c->height}, sizeof t->crossing);
 }
 
-/* ---- comparing ---- */
+/* ---- comparison ---- */
 
 struct sizes {
     double length, speed, radius, k;
@@ -155,8 +155,8 @@ static double larger(double a, double b)
     return isnan(a) || isnan(b) ? INFINITY : fmax(a, b);
 }
 
-/* The speed with which a contact that left with b begins a roll, against that of the roll a. */
-static double roll_apart(const struct state *a, const struct state *b, const struct sizes *s)
+/* Compare the speed with which the contact that left with b begins a roll, with that of the roll a. */
+static double roll_distance(const struct state *a, const struct state *b, const struct sizes *s)
 {
     double u = hypot(a->v[2], a->v[3]);
     if (!(u > 0))
@@ -166,57 +166,59 @@ static double roll_apart(const struct state *a, const struct state *b, const str
     return fabs(u - (along + spin) / (1 + s->k));
 }
 
-/* How far two states are apart, by the size of what they are made of; only the first may be a roll. */
-static double apart(const struct state *a, const struct state *b, const struct sizes *s)
+/* Return the distance of two states relative to their sizes; only the first may be a roll. */
+static double distance(const struct state *a, const struct state *b, const struct sizes *s)
 {
     double d = larger(fabs(a->v[0] - b->v[0]), fabs(a->v[1] - b->v[1])) / s->length;
     if (a->rolls)
-        return larger(d, roll_apart(a, b, s) / s->speed);
+        return larger(d, roll_distance(a, b, s) / s->speed);
     for (int i = 2; i < 4; i++)
         d = larger(d, fabs(a->v[i] - b->v[i]) / s->speed);
     return larger(d, fabs(a->v[4] - b->v[4]) * s->radius / s->speed);
 }
 
-/* Contact at which two traces part by more than `limit`, and how far; contacts + 1 stands for the end and the control;
- * 0 where they agree. A contact that only one of them has parts them wholly. */
-static uint64_t part(const struct trace *a, const struct trace *b, const struct sizes *s, double limit, double *by)
+/* Return the contact at which two traces differ by more than `limit`, and set the distance; contacts + 1 means the end and the
+ * control; 0: they agree. A contact of only one of them is an infinite distance. */
+static uint64_t find_difference(const struct trace *a, const struct trace *b, const struct sizes *s, double limit,
+                                double *difference)
 {
     uint64_t n = a->contacts < b->contacts ? a->contacts : b->contacts;
     n = n < CONTACTS ? n : CONTACTS;
     for (uint64_t i = 1; i <= n; i++) {
-        *by = a->after[i].known && b->after[i].known ? apart(&a->after[i], &b->after[i], s) : 0;
-        if (!(*by <= limit))
+        *difference = a->after[i].known && b->after[i].known ? distance(&a->after[i], &b->after[i], s) : 0;
+        if (!(*difference <= limit))
             return i;
     }
-    *by = INFINITY;
-    if (a->end < 0 && b->end < 0) /* cut short, each where it is */
+    *difference = INFINITY;
+    if (a->end < 0 && b->end < 0) /* both cut off, at their own places */
         return 0;
     if (a->end != b->end || a->reached != b->reached || (a->end >= 0 && a->contacts != b->contacts))
         return n + 1;
-    *by = larger(fabs(a->x - b->x), fabs(a->z - b->z)) / s->length;
+    *difference = larger(fabs(a->x - b->x), fabs(a->z - b->z)) / s->length;
     if (a->reached) {
-        *by = larger(*by, larger(fabs(a->crossing[0] - b->crossing[0]), fabs(a->crossing[1] - b->crossing[1])) / s->speed);
-        *by = larger(*by, fabs(a->crossing[2] - b->crossing[2]) * s->radius / s->speed);
-        *by = larger(*by, fabs(a->crossing[3] - b->crossing[3]) / s->length);
+        *difference = larger(*difference,
+                             larger(fabs(a->crossing[0] - b->crossing[0]), fabs(a->crossing[1] - b->crossing[1])) / s->speed);
+        *difference = larger(*difference, fabs(a->crossing[2] - b->crossing[2]) * s->radius / s->speed);
+        *difference = larger(*difference, fabs(a->crossing[3] - b->crossing[3]) / s->length);
     }
-    return *by <= limit ? 0 : n + 1;
+    return *difference <= limit ? 0 : n + 1;
 }
 
-/* Whether changes of rounding size part the slow walk from itself by then and by as much. */
-static bool excused(const struct ceduo_scene *scene, uint64_t rock, const struct sizes *s, uint64_t at, double by)
+/* True if perturbations of rounding size make the slow walk differ from itself by the same distance, no later. */
+static bool is_excused(const struct ceduo_scene *scene, uint64_t rock, const struct sizes *s, uint64_t at, double difference)
 {
     struct line_random r = {.state = rock + 99};
-    for (int i = 0; i < OTHERS; i++) {
+    for (int i = 0; i < PERTURBED; i++) {
         double d;
         trace_slow(scene, rock, &r, &changed);
-        uint64_t parted = part(&slow, &changed, s, fmin(by / 10, 1e-3), &d);
+        uint64_t parted = find_difference(&slow, &changed, s, fmin(difference / 10, 1e-3), &d);
         if (parted != 0 && parted <= at)
             return true;
     }
     return false;
 }
 
-/* The slow walk's last contact before they parted; NULL where none is. */
+/* Return the slow walk's last contact before the difference; NULL if there is none. */
 static const struct state *last_before(uint64_t at)
 {
     uint64_t i = at - 1 < CONTACTS ? at - 1 : CONTACTS;
@@ -225,8 +227,8 @@ static const struct state *last_before(uint64_t at)
     return i > 0 ? &slow.after[i] : NULL;
 }
 
-/* Whether the rock had hardly any energy left there. */
-static bool still(const struct ceduo_scene *scene, const struct sizes *s, uint64_t at)
+/* True if the rock had hardly any energy left there. */
+static bool is_still(const struct ceduo_scene *scene, const struct sizes *s, uint64_t at)
 {
     const struct state *last = last_before(at);
     if (!last)
@@ -235,8 +237,8 @@ static bool still(const struct ceduo_scene *scene, const struct sizes *s, uint64
     return u2 / 2 < STILL * scene->simulation.gravity * s->length;
 }
 
-/* Whether it left there along the normal of the ground, so that its roll begins with a speed of 0. */
-static bool aimless(const struct ceduo_scene *scene, uint64_t at)
+/* True if the rock left along the normal of the ground, so that its roll begins at speed 0. */
+static bool is_aimless(const struct ceduo_scene *scene, uint64_t at)
 {
     const struct state *last = last_before(at);
     if (!last || last->v[4] != 0)
@@ -248,7 +250,7 @@ static bool aimless(const struct ceduo_scene *scene, uint64_t at)
     return fabs(along) <= 1e-15 * hypot(last->v[2], last->v[3]);
 }
 
-static struct sizes sizes_of(const struct ceduo_scene *scene)
+static struct sizes read_sizes(const struct ceduo_scene *scene)
 {
     const struct ceduo_slope *p = &scene->slope;
     struct ceduo_rock body;
@@ -274,34 +276,34 @@ struct tally {
 
 static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally *tally)
 {
-    struct sizes s = sizes_of(scene);
-    double by;
+    struct sizes s = read_sizes(scene);
+    double difference;
     trace_fast(scene, rock, &fast);
     trace_slow(scene, rock, NULL, &slow);
     tally->rocks++;
     tally->contacts += slow.contacts;
     tally->cut_short += slow.end < 0;
-    uint64_t at = part(&fast, &slow, &s, SAME, &by);
-    if (at == 0 && fast.after[1].known && slow.after[1].known && apart(&fast.after[1], &slow.after[1], &s) > SAME_FIRST) {
+    uint64_t at = find_difference(&fast, &slow, &s, SAME, &difference);
+    if (at == 0 && fast.after[1].known && slow.after[1].known && distance(&fast.after[1], &slow.after[1], &s) > SAME_FIRST) {
         at = 1;
-        by = SAME_FIRST;
+        difference = SAME_FIRST;
     }
     if (at == 0) {
         tally->same++;
         return;
     }
     tally->first_apart += at == 1;
-    if (still(scene, &s, at)) {
+    if (is_still(scene, &s, at)) {
         tally->still++;
         return;
     }
-    if (aimless(scene, at)) {
+    if (is_aimless(scene, at)) {
         tally->aimless++;
         return;
     }
-    if (!excused(scene, rock, &s, at, by))
+    if (!is_excused(scene, rock, &s, at, difference))
         fail_msg("seed %ju rock %ju: parts at contact %ju of %ju and %ju by %g", (uintmax_t)scene->simulation.seed,
-                 (uintmax_t)rock, (uintmax_t)at, (uintmax_t)fast.contacts, (uintmax_t)slow.contacts, by);
+                 (uintmax_t)rock, (uintmax_t)at, (uintmax_t)fast.contacts, (uintmax_t)slow.contacts, difference);
     tally->excused++;
 }
 
@@ -337,7 +339,7 @@ TEST(sixteen_combinations_on_the_slope_of_table_3)
     }
 }
 
-/* line_scene_random() draws the bound; here every scene has either. */
+/* line_scene_random() draws the bound; here it is set for every scene. */
 static void compare_random_scenes(bool friction_bound, const char *what)
 {
     static struct line_scene scene;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow threads */
-/* Runs of many rocks: their means beside those of independent implementations, and that nothing but the scene moves
- * them. */
+/* Runs of many rocks: their means compared with independent implementations; only the scene affects them. */
 #include "expect.h"
 #include "local.h"
 
@@ -18,16 +17,16 @@
 
 static struct paper_site site;
 
-/* A run of `scene` of so many rocks on as many threads. */
+/* Return a run of `scene` with n rocks on this many threads. */
 static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, unsigned threads)
 {
     scene->simulation.rocks = rocks;
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.threads = threads;
-    return run_of(&def, rocks);
+    return make_run(&def, rocks);
 }
 
-/* Within four combined standard errors, and half of the last digit of what is printed. */
+/* Expect agreement within four combined standard errors plus half of the last printed digit. */
 static void expect_mean(const char *what, double value, double se, double expected, double expected_se, double digit)
 {
     double most = 4 * hypot(se, expected_se) + digit / 2;
@@ -35,10 +34,10 @@ static void expect_mean(const char *what, double value, double se, double expect
         fail_msg("%s: %.6g ± %.3g is not %.6g ± %.3g", what, value, se, expected, expected_se);
 }
 
-/* ---- beside Table 5 ---- */
+/* ---- Table 5 ---- */
 
-/* Means at x = 135 of 2·10^5 rocks (the first of 10^6) by independent implementations of the same model. The paper's
- * Table 5 has 20.94 m/s and 122 kJ. */
+/* Means at x = 135 of 2·10^5 rocks (the first of 10^6) by independent implementations of the same model. Table 5 of the paper
+ * has 20.94 m/s and 122 kJ. */
 struct combination {
     enum ceduo_law law;
     enum ceduo_facets facets;
@@ -71,7 +70,7 @@ TEST(means_of_the_combinations_beside_table_5)
         const struct combination *c = &combinations[i];
         choose(c);
         LOCAL(ceduo_run, run) = run_scene(&site.scene, c->rocks, 2);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
+        struct ceduo_arrivals a = read_arrivals(run, 0);
         double p = a.reach.mean, n = (double)c->rocks;
         ROWS(expect_mean, ("mean speed", a.speed.mean, a.speed.se, c->speed, c->speed_se, c->speed_digit),
              ("mean energy", a.energy.mean / 1e3, a.energy.se / 1e3, c->energy, c->energy_se, c->energy_digit),
@@ -82,21 +81,21 @@ TEST(means_of_the_combinations_beside_table_5)
     }
 }
 
-TEST(almost_nothing_passes_crsp_with_angles_to_both_sides)
+TEST(hardly_any_rock_passes_crsp_with_facets_to_both_sides)
 {
     choose(&(struct combination){.law = CEDUO_LAW_CRSP, .facets = CEDUO_BOTH, .theta = PAPER_ANGLE});
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 20000, 2);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
-    EXPECT(a.reached, <=, 3); /* 1 in 10^5: more than 3 of 20 000 has a chance of 6e-5 */
+    struct ceduo_arrivals a = read_arrivals(run, 0);
+    EXPECT(a.reached, <=, 3); /* 1 in 10^5: more than 3 of 20 000 has probability 6e-5 */
     EXPECT(a.reach.lo, <=, 1e-5);
     EXPECT(a.reach.hi, >=, 1e-5);
 }
 
-TEST(figures_of_an_arrival_fit_together)
+TEST(figures_of_an_arrival_are_consistent)
 {
     choose(&combinations[3]);
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 5000, 2);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     static double energies[5000];
     size_t n = ceduo_run_energies(run, 0, energies, LENGTH(energies)), exceeded = 0;
     assert_int_equal(n, a.reached);
@@ -125,20 +124,20 @@ TEST(figures_of_an_arrival_fit_together)
     uint64_t reached;
     struct ceduo_estimate mean = ceduo_run_energy(run, 0, &reached);
     ROWS(EXPECT, (reached, ==, a.reached), (mean.mean, ==, a.energy.mean), (mean.se, ==, a.energy.se));
-    struct ceduo_ends ends = ends_of(run);
+    struct ceduo_ends ends = read_ends(run);
     assert_int_equal(ends.count[CEDUO_AT_REST] + ends.count[CEDUO_LEFT_SLOPE] + ends.count[CEDUO_UNFINISHED], 5000);
     assert_int_equal(ends.stop_x.n, ends.count[CEDUO_AT_REST]);
     ROWS(EXPECT, (ends.stop_p50, <=, ends.stop_p95), (ends.stop_p95, <=, ends.stop_max), (ends.stop_max, ==, ends.stop_x.max));
 }
 
-TEST(a_run_flies_the_rocks_that_can_be_followed)
+TEST(a_run_equals_single_trajectories)
 {
     choose(&combinations[5]);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     EXPECT(expect_as_followed(def, 1500).reached, >, 1000);
 }
 
-/* ---- the same bits ---- */
+/* ---- equal bits ---- */
 
 TEST(the_same_bits_with_any_number_of_threads_and_steps)
 {
@@ -150,12 +149,12 @@ TEST(the_same_bits_with_any_number_of_threads_and_steps)
     }
 }
 
-TEST(a_run_is_no_longer_than_asked_for)
+TEST(a_run_stops_at_the_requested_length)
 {
     choose(&combinations[0]);
     site.scene.simulation.rocks = 500;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    LOCAL(ceduo_run, run) = run_of(&def, 300);
+    LOCAL(ceduo_run, run) = make_run(&def, 300);
     assert_int_equal(ceduo_run_extend(run, 100), CEDUO_OK); /* nothing to do */
     assert_int_equal(ceduo_run_rocks(run), 300);
     assert_int_equal(ceduo_run_extend(run, 9999), CEDUO_OK);
@@ -163,22 +162,22 @@ TEST(a_run_is_no_longer_than_asked_for)
     ceduo_run_free(NULL);
 }
 
-TEST(other_seeds_are_other_rocks)
+TEST(other_seeds_give_other_rocks)
 {
     choose(&combinations[0]);
     LOCAL(ceduo_run, one) = run_scene(&site.scene, 50000, 2);
-    struct ceduo_arrivals a = arrivals_of(one, 0);
+    struct ceduo_arrivals a = read_arrivals(one, 0);
     site.scene.simulation.seed = 2;
     LOCAL(ceduo_run, two) = run_scene(&site.scene, 50000, 2);
-    struct ceduo_arrivals b = arrivals_of(two, 0);
+    struct ceduo_arrivals b = read_arrivals(two, 0);
     EXPECT(a.speed.mean, !=, b.speed.mean);
     expect_mean("mean speed", a.speed.mean, a.speed.se, b.speed.mean, b.speed.se, 0);
 }
 
 /* ---- envelopes ---- */
 
-/* The value of a rank in a sorted copy, as a manual of statistics has it: the smallest that a share p does not exceed. */
-static double rank_of(const double *values, size_t n, double p)
+/* Return the value of rank p in a sorted sample as textbooks define it: the smallest value that at most a share p is below. */
+static double value_of_rank(const double *values, size_t n, double p)
 {
     double sorted[CEDUO_ENVELOPE_ROCKS];
     memcpy(sorted, values, n * sizeof *sorted);
@@ -191,12 +190,12 @@ static double rank_of(const double *values, size_t n, double p)
 
 static void expect_spread(const struct ceduo_cell_quantiles *s, const double *values, size_t n)
 {
-    EXPECT_IS(*s, (p5, rank_of(values, n, .05)), (p50, rank_of(values, n, .5)), (p95, rank_of(values, n, .95)),
-              (max, rank_of(values, n, 1)));
+    EXPECT_IS(*s, (p5, value_of_rank(values, n, .05)), (p50, value_of_rank(values, n, .5)),
+              (p95, value_of_rank(values, n, .95)), (max, value_of_rank(values, n, 1)));
 }
 
-/* A rock passes a place of an envelope as it passes a control there: what a run keeps of each, sorted. */
-TEST(envelopes_are_ranks_of_what_rocks_bring)
+/* Envelopes at a place equal ranks of a control there: a run stores and sorts the values of each. */
+TEST(envelopes_are_ranks_over_rocks)
 {
     static const double places[] = {1, 20, 70, 134.5, 135, 150};
     static const uint64_t rocks[] = {1, 2, 20, 21, 2000};
@@ -211,7 +210,7 @@ TEST(envelopes_are_ranks_of_what_rocks_bring)
         for (size_t i = 0; i < LENGTH(places); i++) {
             site.control.x = places[i];
             struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-            LOCAL(ceduo_run, run) = run_of(&def, rocks[k]);
+            LOCAL(ceduo_run, run) = make_run(&def, rocks[k]);
             const double *height = ceduo_run_samples(run, 0, CEDUO_SAMPLE_HEIGHT);
             const double *energy = ceduo_run_samples(run, 0, CEDUO_SAMPLE_ENERGY);
             size_t n = 0;
@@ -224,14 +223,14 @@ TEST(envelopes_are_ranks_of_what_rocks_bring)
             if (n == 0)
                 continue;
             expect_spread(&e[i].height, heights, n);
-            EXPECT_NEAR(e[i].energy.p5, rank_of(energies, n, .05), 1e-12 * e[i].energy.p5);
-            EXPECT_NEAR(e[i].energy.p95, rank_of(energies, n, .95), 1e-12 * e[i].energy.p95);
+            EXPECT_NEAR(e[i].energy.p5, value_of_rank(energies, n, .05), 1e-12 * e[i].energy.p5);
+            EXPECT_NEAR(e[i].energy.p95, value_of_rank(energies, n, .95), 1e-12 * e[i].energy.p95);
             EXPECT_NEAR(e[i].mean_energy, gsl_stats_mean(energies, 1, n), 1e-12 * e[i].mean_energy);
         }
     }
 }
 
-/* ---- cancelling ---- */
+/* ---- cancellation ---- */
 
 struct canceller {
     atomic_bool flag;
@@ -246,7 +245,7 @@ static void raise_flag(void *context, uint64_t rocks)
     atomic_store(&c->flag, true);
 }
 
-TEST(a_raised_flag_ends_the_run_which_can_go_on_later)
+TEST(a_cancelled_run_can_continue)
 {
     static struct canceller c;
     choose(&combinations[1]);
@@ -261,17 +260,17 @@ TEST(a_raised_flag_ends_the_run_which_can_go_on_later)
     assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED);
     uint64_t done = ceduo_run_rocks(run);
     ROWS(EXPECT, (c.calls, >=, 1), (done, >=, c.last), (done, <, 600000));
-    assert_int_equal(arrivals_of(run, 0).released, done);
-    assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED); /* still raised */
+    assert_int_equal(read_arrivals(run, 0).released, done);
+    assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED); /* flag still set */
     assert_int_equal(ceduo_run_rocks(run), done);
     struct ceduo_run_def plain = ceduo_run_def_default(&site.scene);
     plain.threads = 2;
-    LOCAL(ceduo_run, other) = run_of(&plain, done);
-    expect_same_run(run, other);
+    LOCAL(ceduo_run, second) = make_run(&plain, done);
+    expect_same_run(run, second);
     atomic_store(&c.flag, false);
     assert_int_equal(ceduo_run_extend(run, done + 3000), CEDUO_OK);
-    assert_int_equal(ceduo_run_extend(other, done + 3000), CEDUO_OK);
-    expect_same_run(run, other);
+    assert_int_equal(ceduo_run_extend(second, done + 3000), CEDUO_OK);
+    expect_same_run(run, second);
 }
 
 /* ---- spreads ---- */
@@ -303,9 +302,9 @@ static void expect_moments(const char *what, const struct ceduo_moments *m, doub
     expect_mean(what, ceduo_moments_sd(m), sd / sqrt(2 * (double)m->n), sd, 0, 0);
 }
 
-#define CUT_SD 0.98657839256 /* sd of the normal law cut at three of its own: sqrt(1 - 6 phi(3)/(2 Phi(3) - 1)) */
+#define CUT_SD 0.98657839256 /* sd of the normal law truncated at three of its own: sqrt(1 - 6 phi(3)/(2 Phi(3) - 1)) */
 
-TEST(releases_and_rocks_are_drawn_as_they_are_spread)
+TEST(releases_and_rocks_follow_their_distributions)
 {
     choose(&combinations[4]);
     struct ceduo_scene *s = &site.scene;
@@ -327,31 +326,31 @@ TEST(releases_and_rocks_are_drawn_as_they_are_spread)
     LOCAL(ceduo_run, run) = run_scene(s, 5000, 2);
     LOCAL(ceduo_run, again) = run_scene(s, 5000, 16);
     expect_same_run(run, again);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT(a.reached, >, 4000);
     EXPECT(a.translation.mean, <, a.energy.mean);
 }
 
-TEST(a_lumped_rock_of_many_masses_has_energies_of_its_own)
+TEST(a_lumped_rock_with_many_masses_has_its_own_energies)
 {
     choose(&combinations[0]);
     site.scene.rock.density = (struct ceduo_number){2600, 300, CEDUO_UNIFORM};
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 50000, 2);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
-    /* the way does not depend on the mass */
+    struct ceduo_arrivals a = read_arrivals(run, 0);
+    /* the trajectory does not depend on the mass */
     expect_mean("mean speed", a.speed.mean, a.speed.se, 20.612, .005, .001);
     expect_mean("mean energy", a.energy.mean / 1e3, a.energy.se / 1e3, 114.69, .05, .01);
     expect_relative(a.energy.mean, a.translation.mean, 1e-12);
 }
 
-/* On the flat a rock that drops with vx leaves its first contact with Rt·vx and Rn·vz. */
+/* On level ground a rock dropped with vx leaves its first contact with Rt·vx and Rn·vz. */
 struct first_contact {
     struct ceduo_moments rn, rt;
     double vz;
     bool seen;
 };
 
-static void look_at_first_contact(void *context, const struct ceduo_trajectory_segment *p)
+static void check_first_contact(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct first_contact *f = context;
     if (p->contacts == 0)
@@ -367,7 +366,7 @@ static struct first_contact first_contacts(const struct ceduo_scene *scene)
 {
     struct first_contact f = {0};
     for (uint64_t rock = 0; rock < 20000; rock++) {
-        const struct ceduo_trajectory_callbacks watch = {.piece = look_at_first_contact, .context = &f};
+        const struct ceduo_trajectory_callbacks watch = {.piece = check_first_contact, .context = &f};
         struct ceduo_trajectory w;
         f.seen = false;
         assert_int_equal(ceduo_trajectory_run(scene, NULL, rock, &watch, &w, NULL), CEDUO_OK);
@@ -376,7 +375,7 @@ static struct first_contact first_contacts(const struct ceduo_scene *scene)
     return f;
 }
 
-TEST(grounds_are_drawn_as_they_are_spread)
+TEST(grounds_follow_their_distributions)
 {
     static struct line_scene flat;
     const double x[] = {0, 1000}, z[] = {0, 0};
@@ -387,7 +386,7 @@ TEST(grounds_are_drawn_as_they_are_spread)
     struct first_contact f = first_contacts(&flat.scene);
     expect_moments("Rn", &f.rn, .3, .05 * CUT_SD);
     expect_moments("Rt", &f.rt, .8, .1 / sqrt(3));
-    flat.segments[0].rn = (struct ceduo_number){.95, .2, CEDUO_NORMAL}; /* cut at 1 as well */
+    flat.segments[0].rn = (struct ceduo_number){.95, .2, CEDUO_NORMAL}; /* truncated at 1 as well */
     f = first_contacts(&flat.scene);
     double a = -3, b = .25, pi = acos(-1), p = (erfc(-b / sqrt(2)) - erfc(-a / sqrt(2))) / 2;
     double shift = (exp(-a * a / 2) - exp(-b * b / 2)) / sqrt(2 * pi) / p;
@@ -395,7 +394,7 @@ TEST(grounds_are_drawn_as_they_are_spread)
     EXPECT(f.rn.max, <=, 1 + 1e-15);
 }
 
-TEST(a_spread_of_nothing_changes_nothing)
+TEST(a_spread_of_0_changes_nothing)
 {
     choose(&combinations[5]);
     LOCAL(ceduo_run, one) = run_scene(&site.scene, 3000, 2);
@@ -406,7 +405,7 @@ TEST(a_spread_of_nothing_changes_nothing)
     expect_same_run(one, two);
 }
 
-/* ---- nobody there ---- */
+/* ---- no arrival ---- */
 
 static bool nothing_known(const struct ceduo_distribution *d)
 {
@@ -414,7 +413,7 @@ static bool nothing_known(const struct ceduo_distribution *d)
            isnan(d->p95_hi) && isnan(d->p99) && isnan(d->max);
 }
 
-TEST(a_control_that_nobody_reaches)
+TEST(a_control_without_arrivals)
 {
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
         choose(&combinations[0]);
@@ -425,8 +424,8 @@ TEST(a_control_that_nobody_reaches)
         }
         site.scene.simulation.rocks = 999;
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        LOCAL(ceduo_run, run) = run_of(&def, 999);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
+        LOCAL(ceduo_run, run) = make_run(&def, 999);
+        struct ceduo_arrivals a = read_arrivals(run, 0);
         EXPECT_IS(a, (reached, 0), (reach.mean, 0), (reach.lo, 0));
         ROWS(EXPECT, (a.reach.hi, >, .0038), (a.reach.hi, <, .004), (a.exceed.hi, ==, a.reach.hi));
         ROWS(assert_true, (nothing_known(&a.speed)), (nothing_known(&a.energy)), (nothing_known(&a.translation)),
@@ -446,7 +445,7 @@ TEST(a_control_without_an_accepted_energy)
     choose(&combinations[0]);
     site.control.accepted = NAN;
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 999, 1);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT(a.exceeded, ==, 0);
     EXPECT_NAN(a.exceed.mean, a.exceed.lo, a.exceed.hi);
 }
@@ -460,17 +459,17 @@ TEST(unfinished_rocks_count_for_the_upper_bound)
     flat.control = (struct ceduo_control){.x = 600, .accepted = 1, .measured_speed = NAN};
     flat.scene.controls_count = 1;
     LOCAL(ceduo_run, run) = run_scene(&flat.scene, 5, 2);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT_IS(a, (unfinished, 5), (reached, 0), (reach.hi, 1), (reach.lo, 0), (exceed.hi, 1));
-    struct ceduo_ends ends = ends_of(run);
+    struct ceduo_ends ends = read_ends(run);
     assert_int_equal(ends.count[CEDUO_UNFINISHED], 5);
     EXPECT_NAN(ends.stop_p50, ends.stop_max);
 }
 
-/* Blocks of all sizes fall on one of two grounds: on one they stay, on the other they bounce for ever. Nobody reaches the
- * control; the upper end is that of as many equal rocks as would have the same error, (sum of weights)^2 over the sum of their
- * squares, of which the unfinished arrive by their weights; or of these and of none of the others, if that is more. */
-TEST(unfinished_blocks_count_by_their_weights)
+/* Blocks of all sizes fall on one of two grounds: on one they stop, on the other they bounce for ever. None reaches the
+ * control. The upper bound counts (sum of weights)^2 / sum of their squares equal rocks. The unfinished ones arrive by their
+ * weights; or they arrive and no others do, if that is more. */
+TEST(unfinished_blocks_count_with_their_weights)
 {
     enum { ROCKS = 60 };
     static struct line_scene flat;
@@ -488,7 +487,7 @@ TEST(unfinished_blocks_count_by_their_weights)
     flat.scene.blocks_count = 1;
     LOCAL(ceduo_run, run) = run_scene(&flat.scene, ROCKS, 2);
     LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&flat.scene, NULL);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
     const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
     double all = 0, squares = 0, unfinished = 0;
     for (uint64_t r = 0; r < ROCKS; r++) {

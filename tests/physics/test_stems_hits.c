@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a hit takes of a rock, which stems it flies over, and where stems stop it. */
+/* Energy taken by a hit, stems that a rock flies over, and rocks that stems stop. */
 #include "expect.h"
 #include "local.h"
 
@@ -7,7 +7,7 @@
 
 #include "stems_scene.h"
 
-/* ---- what a hit takes ---- */
+/* ---- energy of a hit ---- */
 
 static void plant_dorren(double from, double to)
 {
@@ -27,11 +27,11 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
         assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_encounter *s = &sweep.stems[i];
-            double most = 1.7 * 38.7 * pow(100 * s->dbh, 2.31), u = fabs(s->y) / ((B + s->dbh) / 2);
+            double max = 1.7 * 38.7 * pow(100 * s->dbh, 2.31), u = fabs(s->y) / ((B + s->dbh) / 2);
             double share = printed_share(u);
-            if (!(fabs(s->taken / most - share) <= 1e-12 * fmax(share, 1e-3)))
-                fail_msg("u = %.17g takes %.17g of %.17g", u, s->taken, most);
-            spread_add(s->shoot ? &shoots : &trees, s->taken / most);
+            if (!(fabs(s->taken / max - share) <= 1e-12 * fmax(share, 1e-3)))
+                fail_msg("u = %.17g takes %.17g of %.17g", u, s->taken, max);
+            spread_add(s->shoot ? &shoots : &trees, s->taken / max);
         }
     }
     double mean = mean_printed_share();
@@ -42,8 +42,8 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
     EXPECT(trees.n + shoots.n, >, 1e6);
 }
 
-/* What a hit takes where brauner goes by eccentricity: the printed share of V U, and all of a rock that has less. */
-TEST(hits_beside_the_middle_take_their_share)
+/* If brauner depends on eccentricity, a hit takes the printed share of V U, or all of a rock that has less. */
+TEST(hits_off_centre_take_their_share)
 {
     const double volume = 1000, u_J_m3 = 1e7; /* far more than a rock has, but at the edge of a stem */
     uint64_t whole = 0, ends[CEDUO_ENDS] = {0};
@@ -68,10 +68,10 @@ TEST(hits_beside_the_middle_take_their_share)
     EXPECT(ends[CEDUO_STOPPED_BY_STEMS], >, 1000);
 }
 
-/* A stem's hit between two pieces of the way, and what it does to the speed. */
+/* The hit between two trajectory segments, and its effect on the speed. */
 struct scaling {
     struct ceduo_trajectory_segment last;
-    double left; /* share of the energy that the hit before leaves; NaN: none */
+    double left; /* share of the energy left by the previous hit; NaN: none */
     uint64_t hits, checked;
     double radius, mass, moment;
     bool spins;
@@ -86,11 +86,11 @@ static void after_hit(void *context, const struct ceduo_trajectory_segment *p)
 {
     struct scaling *s = context;
     if (!isnan(s->left)) {
-        double was = s->last.vx1 * s->last.vx1 + s->last.vz1 * s->last.vz1, is = p->vx * p->vx + p->vz * p->vz;
-        expect_exact("v2 behind a stem", is / was, s->left, 1e-12);
+        double before = s->last.vx1 * s->last.vx1 + s->last.vz1 * s->last.vz1, after = p->vx * p->vx + p->vz * p->vz;
+        expect_exact("v2 behind a stem", after / before, s->left, 1e-12);
         if (s->spins)
             expect_exact("spin2 behind a stem", p->spin * p->spin / (last_spin(s) * last_spin(s)), s->left, 1e-12);
-        if (fabs(p->vz * s->last.vx1 - s->last.vz1 * p->vx) > 1e-12 * was)
+        if (fabs(p->vz * s->last.vx1 - s->last.vz1 * p->vx) > 1e-12 * before)
             fail_msg("a stem turned the rock");
         s->checked++;
     }
@@ -109,7 +109,7 @@ static void at_hit(void *context, const struct ceduo_stem_encounter *stem)
     s->hits++;
 }
 
-TEST(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy)
+TEST(a_hit_scales_speed_and_spin_with_the_remaining_energy)
 {
     for (int i = 0; i < 4; i++) {
         bool rolls = i & 1, spins = i & 2;
@@ -122,7 +122,7 @@ TEST(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy)
         sweep_begin();
         for (uint64_t rock = 0; rock < 2000; rock++) {
             if (rock == 0)
-                sweep_rock(0); /* for the rock's mass */
+                sweep_rock(0); /* sets the rock's mass */
             s.radius = sweep.way.rock.radius;
             s.mass = sweep.way.rock.mass;
             s.moment = spins ? sweep.way.rock.moment : 0;
@@ -137,7 +137,7 @@ TEST(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy)
 }
 
 /* Level ground, dorren's stems and one control. */
-static void cross_at(double x, bool rolls)
+static void set_crossing(double x, bool rolls)
 {
     clear_plane(400);
     plant_dorren(10, 400);
@@ -146,17 +146,17 @@ static void cross_at(double x, bool rolls)
     plane.line.scene.controls_count = 1;
 }
 
-TEST(a_control_where_a_stem_stands_is_passed_before_the_hit)
+TEST(a_control_at_a_stem_is_passed_before_the_hit)
 {
     for (uint64_t rock = 0; rock < 400; rock++) {
         bool rolls = rock % 2;
-        cross_at(400, rolls);
+        set_crossing(400, rolls);
         sweep_one(rock);
         for (size_t i = 0; i < sweep.count && i < 4; i++) {
             struct ceduo_stem_encounter stem = sweep.stems[i];
             struct ceduo_trajectory way;
             struct ceduo_crossing c;
-            cross_at(stem.x, rolls);
+            set_crossing(stem.x, rolls);
             assert_int_equal(ceduo_trajectory_run(&plane.line.scene, &plane.line.option, rock, NULL, &way, &c), CEDUO_OK);
             assert_true(c.reached);
             EXPECT(c.stems_hit, ==, i);
@@ -174,7 +174,7 @@ TEST(rocks_fly_over_stems_that_are_lower)
     struct spread come_to = {0}, hit = {0};
     clear_plane(400);
     line_scene_release(&plane.line, 0, fall, v, 0, 0);
-    plane.line.segments[0].rn = ceduo_number(0); /* dead ground: the rock rolls from its landing on */
+    plane.line.segments[0].rn = ceduo_number(0); /* dead ground: the rock rolls after its landing */
     struct ceduo_belt *belt = plant_belt(0, 400, 1000, .4);
     plant_shoots(belt, 4000, .05)->height = heights[0];
     plant_trees(belt, 1500, .2)->height = heights[1];
@@ -194,7 +194,7 @@ TEST(rocks_fly_over_stems_that_are_lower)
                          s->height, s->hit);
             hits += s->hit;
         }
-        if (hits != sweep.way.stems_hit || different(false) != sweep.way.stools_met)
+        if (hits != sweep.way.stems_hit || count_different(false) != sweep.way.stools_met)
             fail_msg("rock %ju: stems flown over are counted", (uintmax_t)rock);
         spread_add(&come_to, (double)sweep.count / 400);
         spread_add(&hit, (double)hits);
@@ -204,7 +204,7 @@ TEST(rocks_fly_over_stems_that_are_lower)
     expect_mean("stems hit", &hit, expected);
 }
 
-/* Clearance over a broken slope, from the pieces of the way themselves. */
+/* Clearance over a broken slope, computed from the trajectory segments. */
 #define PIECES_MAX 4096
 struct pieces {
     size_t count;
@@ -238,7 +238,7 @@ static double height_above_ground(const struct pieces *p, double x)
     return z - ceduo_slope_height(&plane.line.scene.slope, x);
 }
 
-TEST(a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope)
+TEST(a_stem_is_hit_if_the_rock_is_lower_over_a_broken_slope)
 {
     static struct pieces pieces;
     static const double x[] = {0, 30, 45, 60, 61, 120, 200}, z[] = {0, -20, -22, -45, -60, -80, -130};
@@ -269,7 +269,7 @@ TEST(a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope)
 
 /* ---- rocks that stems stop ---- */
 
-/* Where the first point of a Poisson process lies, if there is one on `length` from `from` on. */
+/* Law of the first point of a Poisson process on `length` after `from`. */
 struct first_stem {
     double from, length, rate;
 };
@@ -283,7 +283,7 @@ static double first_stem_cdf(double x, const void *of)
 static void expect_run_stopped(const struct sample *stops, uint64_t rocks)
 {
     LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, rocks, 2);
-    struct ceduo_ends ends = ends_of(run);
+    struct ceduo_ends ends = read_ends(run);
     ROWS(assert_int_equal, (ends.count[CEDUO_STOPPED_BY_STEMS], stops->n), (ends.count[CEDUO_LEFT_SLOPE], rocks - stops->n),
          (ends.stop_x.n, stops->n));
     double sum = 0;
@@ -317,7 +317,7 @@ static void expect_stopped(const char *name, uint64_t rocks)
     sample_clear(&stops);
 }
 
-TEST(rocks_are_stopped_where_their_stem_stands)
+TEST(rocks_stop_at_their_stem)
 {
     for (int i = 0; i < 2; i++) {
         static const char *const names[] = {"in flight", "rolling"};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stems that are made up as a rock comes to them, beside a full map of them in the plane. */
+/* Stems drawn lazily along a trajectory, compared with a full map in the plane. */
 #include "expect.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "plane_map.h"
 #include "stems_scene.h"
 
-/* What is compared: places along the way and across it, gaps, and how many. */
+/* Compared statistics: positions along and across the trajectory, gaps, and counts. */
 struct swept {
     struct sample per_way, stools_per_way, gap, per_stool, x, y, dbh;
 };
@@ -18,7 +18,7 @@ static int by_stool(const void *a, const void *b)
     return (p->stool > q->stool) - (p->stool < q->stool);
 }
 
-/* One way's stems, in the order of x. */
+/* Add the stems of one trajectory, in order of x. */
 static void swept_add(struct swept *s, struct map_stem *stems, size_t n)
 {
     sample_add(&s->per_way, (double)n);
@@ -103,14 +103,14 @@ static void expect_same_as_map(const char *name, uint64_t ways, unsigned long se
     swept_clear(&map);
 }
 
-TEST(stems_met_are_those_of_a_full_map_in_the_plane)
+TEST(stems_met_match_a_full_map)
 {
     clear_plane(70);
     plant_plot(1, 10, 60);
     expect_same_as_map("ADS 1", 20000, 1);
 }
 
-TEST(stems_of_many_kinds_are_those_of_a_full_map_in_the_plane)
+TEST(stems_of_many_kinds_match_a_full_map)
 {
     clear_plane(70);
     struct ceduo_belt *belt = plant_belt(10, 60, 1200, .45);
@@ -121,7 +121,7 @@ TEST(stems_of_many_kinds_are_those_of_a_full_map_in_the_plane)
     expect_same_as_map("two cohorts, two classes", 20000, 2);
 }
 
-TEST(stems_beside_a_gap_are_those_of_a_full_map_in_the_plane)
+TEST(stems_next_to_a_gap_match_a_full_map)
 {
     clear_plane(70);
     struct ceduo_belt *belt = plant_belt(10, 25, 900, 1.1); /* rings that reach far into the gap */
@@ -132,7 +132,7 @@ TEST(stems_beside_a_gap_are_those_of_a_full_map_in_the_plane)
     expect_same_as_map("two belts and a gap", 20000, 3);
 }
 
-TEST(stems_after_a_release_in_the_forest_are_those_of_a_full_map_in_the_plane)
+TEST(stems_after_a_release_in_the_forest_match_a_full_map)
 {
     clear_plane(70);
     struct ceduo_belt *belt = plant_belt(30, 60, 700, .4);

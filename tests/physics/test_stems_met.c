@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* How many stems rocks meet, on their way and of each stool, beside closed forms (Cauchy, Crofton, Poisson). */
+/* Numbers of stems that rocks meet, on their trajectory and per stool, compared with closed forms (Cauchy, Crofton,
+ * Poisson). */
 #include "expect.h"
 
 #include <gsl/gsl_cdf.h>
@@ -9,9 +10,9 @@
 
 #include "stems_scene.h"
 
-/* ---- how many ---- */
+/* ---- numbers ---- */
 
-/* Stems of Eq. 1 with every stem, stools and trees by Crofton's formula, per metre. */
+/* Stems by Eq. 1 with every stem; stools and trees by Crofton's formula; per metre. */
 struct plot_rates {
     int number;
     double stems, both, stools;
@@ -33,7 +34,7 @@ static void expect_plot(const struct plot_rates *r, uint64_t rocks, const char *
     expect_mean(named("ADS %d %s, stools per metre", r->number, how), &m.stools, r->stools);
 }
 
-TEST(stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crofton)
+TEST(stems_met_per_metre_follow_equation_1_and_stools_crofton)
 {
     static const uint64_t rocks[] = {3100, 6200};
     for (size_t i = 0; i < LENGTH(plot_rates); i++) {
@@ -44,7 +45,7 @@ TEST(stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crofton)
     }
 }
 
-TEST(a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none)
+TEST(a_rolling_rock_meets_the_same_stems_and_continues_unchanged)
 {
     struct ceduo_trajectory bare;
     clear_plane(520);
@@ -53,12 +54,12 @@ TEST(a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none)
     line_scene_release(&plane.line, 0, 0, 5000, 0, 0);
     expect_plot(&plot_rates[0], 1000, "rolling");
     assert_int_equal(ceduo_trajectory_run(&plane.line.scene, NULL, 0, NULL, &bare, NULL), CEDUO_OK);
-    /* a hit leaves the rest of a roll's length R to go */
+    /* a hit leaves the remaining length R of a roll */
     assert_int_equal(sweep.way.contacts, bare.contacts);
     assert_int_equal(bare.contacts, ceil(520 / (B / 2)));
 }
 
-TEST(rocks_of_many_sizes_meet_as_many_as_their_mean)
+TEST(rocks_of_many_sizes_meet_the_stems_of_their_mean)
 {
     clear_plane(520);
     plant_plot(1, 10, 510);
@@ -97,7 +98,7 @@ static double uniform_cdf(double x, const void *unused)
     return x;
 }
 
-/* Of each way the same number of gaps, few enough that it has them: others would be too short on average. */
+/* The same number of gaps from each trajectory, few enough that all have them: otherwise gaps would be too short on average. */
 #define GAPS 150
 TEST(gaps_between_trees_are_exponential_and_offsets_uniform)
 {
@@ -121,7 +122,7 @@ TEST(gaps_between_trees_are_exponential_and_offsets_uniform)
     sample_clear(&offsets);
 }
 
-TEST(the_chance_to_meet_nothing_of_ten_metres_is_that_of_crofton)
+TEST(the_probability_to_meet_no_stem_in_ten_metres_is_croftons)
 {
     const uint64_t rocks = 1000000;
     uint64_t free_runs = 0;
@@ -136,7 +137,7 @@ TEST(the_chance_to_meet_nothing_of_ten_metres_is_that_of_crofton)
 
 /* ---- rings ---- */
 
-/* Perimeter of the hull of n shoots on a ring. */
+/* Return the perimeter of the hull of n shoots on a ring. */
 static double perimeter(unsigned n, double spacing)
 {
     return n < 2 ? 0 : n * spacing;
@@ -151,7 +152,7 @@ static void expect_stems_per_stool(const char *what, const struct met *m, double
     expect_close(what, ratio, sqrt(variance) / spread_mean(&m->stools), expected, 1e-12);
 }
 
-TEST(a_ring_is_met_as_wide_as_its_hull_is_on_average)
+TEST(a_ring_is_met_at_the_mean_width_of_its_hull)
 {
     static const struct {
         unsigned n;
@@ -173,14 +174,14 @@ TEST(a_ring_is_met_as_wide_as_its_hull_is_on_average)
     }
 }
 
-/* Mean width from which both of two shoots `apart` metres from one another are met, over all directions. */
-static double width_of_both(double width, double apart)
+/* Return the mean width, over all directions, from which both of two shoots `distance` metres from one another are met. */
+static double width_of_both(double width, double distance)
 {
-    double angle = apart > width ? asin(width / apart) : M_PI / 2;
-    return 2 / M_PI * (width * angle - apart * (1 - cos(angle)));
+    double angle = distance > width ? asin(width / distance) : M_PI / 2;
+    return 2 / M_PI * (width * angle - distance * (1 - cos(angle)));
 }
 
-/* Sum of that over all pairs of a ring, each counted twice: what clumping adds to the variance. */
+/* Return that sum over all ordered pairs of a ring: the contribution of clumping to the variance. */
 static double pairs_of_ring(unsigned n, double spacing, double width)
 {
     double sum = 0, r = spacing / 2 / sin(M_PI / n);
@@ -212,14 +213,14 @@ TEST(clumping_changes_the_spread_but_not_the_mean)
 
 /* ---- diameters ---- */
 
-/* Diameters of met stems when all have a gamma law: a stem is met from a strip B + d wide, so that thick ones are met
- * more often, with density proportional to (B + d)f(d): f itself with weight B, and f weighted by d, again a gamma law
- * with one more in its shape, with weight mean d. */
+/* Diameters of met stems if all have a gamma law. A stem is met from a strip B + d wide, so that thick ones are met more often,
+ * with density proportional to (B + d)f(d). This is f with weight B plus f weighted by d, which is a gamma law with a shape
+ * larger by one, with weight mean d. */
 struct biased {
     double mean, shape, scale;
 };
 
-static struct biased biased_of(double mean, double sd)
+static struct biased make_biased(double mean, double sd)
 {
     return (struct biased){mean, mean * mean / (sd * sd), sd * sd / mean};
 }
@@ -230,7 +231,7 @@ static double biased_cdf(double d, const void *of)
     return (B * gsl_cdf_gamma_P(d, l->shape, l->scale) + l->mean * gsl_cdf_gamma_P(d, l->shape + 1, l->scale)) / (B + l->mean);
 }
 
-/* The k-th moment of the gamma law. */
+/* Return the k-th moment of the gamma law. */
 static double gamma_moment(const struct biased *l, int k)
 {
     double m = 1;
@@ -241,7 +242,7 @@ static double gamma_moment(const struct biased *l, int k)
 
 static void expect_biased(const char *name, double per_ha, double mean, double sd, uint64_t rocks, double metres)
 {
-    struct biased law = biased_of(mean, sd);
+    struct biased law = make_biased(mean, sd);
     struct spread per = {0}, dbh = {0};
     struct sample all = {0};
     for (SWEEP(rock, rocks)) {
@@ -270,7 +271,7 @@ TEST(thick_stems_are_met_more_often)
     plant_trees(plant_belt(10, 510, 0, 0), 4000, .2)->dbh_sd = .1;
     expect_biased("trees .2 ± .1 m", 4000, .2, .1, 5800, 500);
     clear_plane(520);
-    plant_trees(plant_belt(10, 510, 0, 0), 4000, .3)->dbh_sd = .36; /* most of them thin */
+    plant_trees(plant_belt(10, 510, 0, 0), 4000, .3)->dbh_sd = .36; /* mostly thin */
     expect_biased("trees .3 ± .36 m", 4000, .3, .36, 5200, 500);
     clear_plane(520);
     plant_shoots(plant_belt(10, 510, 2000, .3), 9000, .1)->dbh_sd = .04;
@@ -288,7 +289,7 @@ static void expect_same_stems(const struct ceduo_stem_encounter *a, size_t n)
     }
 }
 
-/* A spread of 0 is none, and one of nearly nothing moves diameters and offsets by as little. */
+/* A spread of 0 is no spread, and a tiny one moves diameters and offsets by a tiny amount. */
 TEST(diameters_without_spread_change_nothing)
 {
     static struct ceduo_stem_encounter plain[STEMS_MAX];
@@ -313,7 +314,7 @@ TEST(diameters_without_spread_change_nothing)
     }
 }
 
-/* Of a belt whose shoots spread in diameter none is met with the mean, also where it ends and others begin that do not. */
+/* In a belt with varying diameters no met shoot has the mean, not even at the border to belts without variation. */
 TEST(shoots_keep_their_diameters_beside_others)
 {
     size_t near = 0;
@@ -332,8 +333,8 @@ TEST(shoots_keep_their_diameters_beside_others)
     assert_in_range(near, 200, 100000);
 }
 
-/* Stools whose shoots all stand at their middle: the shoots come one by one in the order in which they are drawn, as they
- * do where each is put among the others by itself. */
+/* Stools with all shoots at their centre: the rock meets the shoots one by one in the order of their draws, as if each were
+ * inserted alone. */
 TEST(shoots_at_one_place_are_met_in_their_order)
 {
     static struct ceduo_stem_encounter plain[STEMS_MAX];
@@ -357,9 +358,9 @@ TEST(shoots_at_one_place_are_met_in_their_order)
     }
 }
 
-/* ---- belts of all kinds beside each other ---- */
+/* ---- belts of several kinds ---- */
 
-/* Heights, by which a stem tells of what it is one: 1000 m and one more for each kind that is planted. */
+/* Heights that identify a stem's kind: 1000 m plus one for each planted kind. */
 static struct planted {
     const struct ceduo_belt *belt;
     const struct ceduo_stems *stems;
@@ -401,14 +402,14 @@ static double per_stool(const struct ceduo_stand *stand)
     return ceduo_stand_shoots(stand) / stand->stools_per_ha;
 }
 
-/* How far from its middle a shoot of such a stool may stand. */
+/* Return the maximum distance of a shoot from the centre of its stool. */
 static double ring_reach(const struct ceduo_stand *stand)
 {
     unsigned n = (unsigned)floor(per_stool(stand));
     return fmax(ceduo_stool_radius(n, stand->spacing), ceduo_stool_radius(n + 1, stand->spacing));
 }
 
-static const struct planted *planted_as(const struct ceduo_stem_encounter *stem)
+static const struct planted *find_planted(const struct ceduo_stem_encounter *stem)
 {
     size_t k = (size_t)(stem->height - 100);
     assert_true(k < planted_count);
@@ -417,7 +418,7 @@ static const struct planted *planted_as(const struct ceduo_stem_encounter *stem)
 
 static void expect_one_of_those_planted(const struct ceduo_stem_encounter *stem)
 {
-    const struct planted *of = planted_as(stem);
+    const struct planted *of = find_planted(stem);
     assert_int_equal(stem->shoot, of->shoots);
     if ((stem->dbh == of->stems->dbh) != (of->stems->dbh_sd == 0))
         fail_msg("a stem of %g m where %g ± %g m were planted", stem->dbh, of->stems->dbh, of->stems->dbh_sd);
@@ -426,23 +427,23 @@ static void expect_one_of_those_planted(const struct ceduo_stem_encounter *stem)
     assert_true(stem->x >= of->belt->from - reach && stem->x <= of->belt->to + reach);
 }
 
-/* Of each stool no more shoots than it has, all of one belt, and no two trees of one number. */
+/* Expect of each stool at most its number of shoots, all in one belt, and no tree number twice. */
 static void expect_whole_stools(void)
 {
     for (size_t i = 0; i < sweep.count; i++) {
         const struct ceduo_stem_encounter *p = &sweep.stems[i];
-        const struct planted *of = planted_as(p);
-        size_t same = 0;
+        const struct planted *of = find_planted(p);
+        size_t equal = 0;
         for (size_t j = 0; j < sweep.count; j++)
             if (sweep.stems[j].stool == p->stool) {
-                assert_ptr_equal(planted_as(&sweep.stems[j])->belt, of->belt);
-                same++;
+                assert_ptr_equal(find_planted(&sweep.stems[j])->belt, of->belt);
+                equal++;
             }
-        assert_in_range(same, 1, p->shoot ? (size_t)ceil(per_stool(&of->belt->stand)) : 1);
+        assert_in_range(equal, 1, p->shoot ? (size_t)ceil(per_stool(&of->belt->stand)) : 1);
     }
 }
 
-TEST(stems_of_random_belts_are_some_that_were_planted)
+TEST(stems_of_random_belts_are_planted_ones)
 {
     struct line_random r = {.state = 17};
     size_t all = 0;
@@ -450,7 +451,7 @@ TEST(stems_of_random_belts_are_some_that_were_planted)
         clear_plane(70);
         plane.line.scene.simulation.seed = i;
         plant_belts_at_random(&r);
-        if (line_chance(&r, .3)) /* among them */
+        if (line_chance(&r, .3)) /* mixed with them */
             line_scene_release(&plane.line, line_uniform(&r, 0, 50), 1, 5000, 0, 0);
         for (SWEEP(rock, 5)) {
             all += sweep.count;
@@ -472,7 +473,7 @@ static void expect_stems_per_metre(const char *what, double expected, uint64_t r
     expect_mean(what, &m.stems, expected);
 }
 
-TEST(extreme_stands_are_met_as_they_should_be)
+TEST(extreme_stands_have_the_expected_encounters)
 {
     clear_plane(170);
     plant_shoots(plant_belt(10, 160, 5000, .1), 100000, .02);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stems about a release in the forest, and ground that is covered twice: as dense as elsewhere, each met once. */
+/* Stems around a release in the forest, and ground covered twice: as dense as elsewhere, each stem met once. */
 #include "expect.h"
 
 #include <gsl/gsl_linalg.h>
@@ -11,8 +11,8 @@
 
 /* ---- bins ---- */
 
-/* Stems in bins along x, rock by rock. Those of one stool are no independent events, so the bins' covariance over the
- * rocks is kept as well. */
+/* Stems in bins along x, rock by rock. Stems of one stool are not independent, so the covariance of the bins over rocks is
+ * kept. */
 #define BINS_MAX 64
 struct bins {
     size_t k;
@@ -38,7 +38,7 @@ static void bins_end_rock(struct bins *b)
     b->n++;
 }
 
-/* Every bin has the same mean: chi-square of the means with their covariance (Hotelling 1931, many rocks). */
+/* Expect equal means of all bins: chi-square of the means with their covariance (Hotelling 1931, many rocks). */
 static void expect_even(const char *what, const struct bins *b, double per_bin)
 {
     gsl_matrix *s = gsl_matrix_alloc(b->k, b->k);
@@ -62,9 +62,9 @@ static void expect_even(const char *what, const struct bins *b, double per_bin)
     expect_chi_square(what, chi2, (double)b->k);
 }
 
-/* ---- ground that is covered twice ---- */
+/* ---- ground covered twice ---- */
 
-/* The ground covered so far; a stem must lie at its edge. */
+/* Ground already covered; a new stem must lie at its edge. */
 struct cover {
     double lo, hi;
     uint64_t turns;
@@ -107,8 +107,8 @@ static void expect_each_stem_once(void)
             fail_msg("the stem at %.17g, %.17g is met twice", sweep.stems[i].x, sweep.stems[i].y);
 }
 
-/* A smooth valley in which a rock rolls to and fro, higher on the left than it was released. */
-TEST(ground_that_is_covered_twice_holds_its_stems_once)
+/* A smooth valley in which a rock rolls to and fro, on the left higher than its release. */
+TEST(ground_covered_twice_has_its_stems_once)
 {
     const double from = 381.3, slope = tan(15 * M_PI / 180), v = 31.3;
     struct spread left = {0}, right = {0};
@@ -121,11 +121,11 @@ TEST(ground_that_is_covered_twice_holds_its_stems_once)
         sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.piece = cover_piece, .stem = cover_stem, .context = &c});
         assert_int_equal(sweep.way.end, CEDUO_AT_REST);
         ROWS(EXPECT, (c.turns, >, 10), (c.lo, >, 200), (c.lo, <, 320), (c.hi, >, 500));
-        size_t behind = 0;
+        size_t after = 0;
         for (size_t i = 0; i < sweep.count; i++)
-            behind += sweep.stems[i].x < from;
-        spread_add(&left, (double)behind / (from - c.lo));
-        spread_add(&right, (double)(sweep.count - behind) / (c.hi - from));
+            after += sweep.stems[i].x < from;
+        spread_add(&left, (double)after / (from - c.lo));
+        spread_add(&right, (double)(sweep.count - after) / (c.hi - from));
         expect_each_stem_once();
     }
     sweep_end();
@@ -135,7 +135,7 @@ TEST(ground_that_is_covered_twice_holds_its_stems_once)
 
 /* ---- a release in the forest ---- */
 
-/* Level ground with a wall that throws the rock back over the place where it started. */
+/* Level ground with a wall that throws the rock back across its release. */
 enum way_out { AHEAD, AHEAD_AND_BACK, BACK_AND_AHEAD };
 #define RELEASE 150.
 static void clear_court(enum way_out out)
@@ -167,14 +167,14 @@ static void expect_even_court(const char *name, enum way_out out, double per_m, 
     expect_even(name, &bins, per_m * bins.width);
 }
 
-/* Stems are looked for on 8 m of so many per metre; the belt reaches beyond them by more than any ring. */
+/* Count stems on 8 m by their density per metre; the belt reaches beyond by more than any ring. */
 static void court_of_the_paper(enum way_out out)
 {
     clear_court(out);
     plant_plot(1, RELEASE - 6, RELEASE + 10);
 }
 
-TEST(stems_stand_as_dense_about_a_release_in_the_forest)
+TEST(stems_are_equally_dense_around_a_release_in_the_forest)
 {
     static const char *const names[] = {"from the release on", "ahead and then back", "back and then ahead"};
     for (enum way_out out = AHEAD; out <= BACK_AND_AHEAD; out++) {
@@ -188,40 +188,40 @@ TEST(stems_stand_as_dense_about_a_release_in_the_forest)
     }
 }
 
-/* A stool astride of the release is one stool, whichever way the rock goes first. */
-TEST(the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first)
+/* A stool on both sides of the release is one stool, whichever way the rock goes first. */
+TEST(stems_around_a_release_do_not_depend_on_the_first_direction)
 {
-    static struct ceduo_stem_encounter ahead[STEMS_MAX];
+    static struct ceduo_stem_encounter stems[STEMS_MAX];
     uint64_t astride = 0;
     for (uint64_t rock = 0; rock < 2000; rock++) {
         court_of_the_paper(AHEAD_AND_BACK);
         sweep_one(rock);
         expect_each_stem_once();
         size_t n = sweep.count, met = sweep.way.stools_met;
-        memcpy(ahead, sweep.stems, n * sizeof *ahead);
-        assert_int_equal(met, different(false));
+        memcpy(stems, sweep.stems, n * sizeof *stems);
+        assert_int_equal(met, count_different(false));
         court_of_the_paper(BACK_AND_AHEAD);
         sweep_one(rock);
         expect_each_stem_once();
         assert_int_equal(n, sweep.count);
         assert_int_equal(met, sweep.way.stools_met);
         for (size_t i = 0; i < n; i++)
-            if (by_place(&ahead[i], &sweep.stems[i]) != 0 || ahead[i].dbh != sweep.stems[i].dbh)
-                fail_msg("rock %ju: the stem at %.17g is another", (uintmax_t)rock, ahead[i].x);
+            if (by_place(&stems[i], &sweep.stems[i]) != 0 || stems[i].dbh != sweep.stems[i].dbh)
+                fail_msg("rock %ju: the stem at %.17g is another", (uintmax_t)rock, stems[i].x);
         for (size_t i = 1; i < n; i++)
-            astride += ahead[i - 1].x < RELEASE && ahead[i].x >= RELEASE && ahead[i - 1].stool == ahead[i].stool;
+            astride += stems[i - 1].x < RELEASE && stems[i].x >= RELEASE && stems[i - 1].stool == stems[i].stool;
     }
-    EXPECT(astride, >, 40); /* some were there */
+    EXPECT(astride, >, 40); /* there were some */
 }
 
-/* Far ahead and back again: many other stools lie between the two hits of one astride of the release. */
-TEST(a_stool_astride_of_the_release_is_one_however_far_the_rock_went_between)
+/* Far ahead and back: many other stools lie between the two hits of a stool at the release. */
+TEST(a_stool_at_the_release_stays_one_after_a_long_trajectory)
 {
     uint64_t wrong = 0, rocks = 2000;
     clear_court(AHEAD_AND_BACK);
     plant_plot(1, RELEASE - 6, RELEASE + 145);
     for (SWEEP(rock, rocks))
-        wrong += sweep.way.stools_met != different(false);
+        wrong += sweep.way.stools_met != count_different(false);
     if (wrong > 0)
         fail_msg("%ju of %ju rocks count a stool twice", (uintmax_t)wrong, (uintmax_t)rocks);
 }

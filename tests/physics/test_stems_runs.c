@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs among stems: the test site of Ciabocco, Boccia and Ripa 2009, options side by side, the same bits and the same rocks. */
+/* Runs among stems: the test site of Ciabocco, Boccia and Ripa 2009, several options, equal bits and equal rocks. */
 #include "expect.h"
 #include "local.h"
 
@@ -13,7 +13,7 @@
 
 static struct paper_site site;
 
-/* An independent implementation of the same model; energy (kJ) and speed of those that pass x = 135 m, shares (%) of all
+/* An independent implementation of the same model: energy (kJ) and speed of rocks that pass x = 135 m, shares (%) of all
  * released. In the paper a rock was filmed there with 62.3 kJ and 15.6 m/s. */
 TEST(rocks_on_the_papers_site_arrive_as_in_an_independent_implementation)
 {
@@ -23,12 +23,12 @@ TEST(rocks_on_the_papers_site_arrive_as_in_an_independent_implementation)
     const uint64_t rocks = FULL_OR(300000, 100000);
     paper_site_init(&site);
     LOCAL(ceduo_run, run) = run_option(&site.scene, &site.option, rocks, 2);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
-    struct ceduo_ends e = ends_of(run);
+    struct ceduo_arrivals a = read_arrivals(run, 0);
+    struct ceduo_ends e = read_ends(run);
     double n = (double)rocks, pass = a.reach.mean;
     double stopped = (double)e.count[CEDUO_STOPPED_BY_STEMS] / n;
     expect_close("kJ at 135 m", a.energy.mean / 1e3, a.energy.se / 1e3, other.energy, .1);
-    /* its error is not printed: half of that of the energy, as shares go, and half a digit */
+    /* its error is not published: half of the energy's, relatively, plus half a digit */
     ROWS(expect_close, ("m/s at 135 m", a.speed.mean, a.speed.se, other.speed, other.speed * .05 / other.energy + .005 / 4),
          ("% that pass", 100 * pass, 100 * sqrt(pass * (1 - pass) / n), other.pass, .1),
          ("% stopped by stems", 100 * stopped, 100 * sqrt(stopped * (1 - stopped) / n), other.stopped, .1));
@@ -38,9 +38,9 @@ TEST(rocks_on_the_papers_site_arrive_as_in_an_independent_implementation)
     assert_int_equal(ended, rocks);
 }
 
-/* ---- options side by side ---- */
+/* ---- several options ---- */
 
-/* The paper's site, another option beside it: the same stems, which take a little more. */
+/* The paper's site with a second option: the same stems, which take slightly more. */
 static struct {
     struct ceduo_option options[2];
     struct ceduo_belt belts[2];
@@ -62,8 +62,8 @@ static void open_sides(void)
     site.scene.options_count = LENGTH(sides.options);
 }
 
-/* Energy of each rock at the control, 0 where it does not arrive, whose `reached` is false. */
-static double energy_of_rock(struct ceduo_tracer *f, uint64_t rock, bool *reached)
+/* Return the energy of each rock at the control; 0 and `reached` false if it does not arrive. */
+static double simulate_energy(struct ceduo_tracer *f, uint64_t rock, bool *reached)
 {
     struct ceduo_trajectory w;
     struct ceduo_crossing c;
@@ -76,7 +76,7 @@ struct pair_moments {
     struct ceduo_moments reach, exceed, energy;
 };
 
-static struct pair_moments pairs_of(const struct ceduo_option *a, const struct ceduo_option *b, uint64_t rocks)
+static struct pair_moments read_pairs(const struct ceduo_option *a, const struct ceduo_option *b, uint64_t rocks)
 {
     struct pair_moments m = {0};
     struct ceduo_tracer *f = ceduo_tracer_create(&site.scene, a), *g = ceduo_tracer_create(&site.scene, b);
@@ -84,7 +84,7 @@ static struct pair_moments pairs_of(const struct ceduo_option *a, const struct c
     assert_true(g);
     for (uint64_t rock = 0; rock < rocks; rock++) {
         bool p, q;
-        double e = energy_of_rock(f, rock, &p), h = energy_of_rock(g, rock, &q);
+        double e = simulate_energy(f, rock, &p), h = simulate_energy(g, rock, &q);
         ceduo_moments_add(&m.reach, (double)p - (double)q);
         ceduo_moments_add(&m.exceed, (double)(e > site.control.accepted) - (double)(h > site.control.accepted));
         ceduo_moments_add(&m.energy, e - h);
@@ -108,20 +108,20 @@ TEST(differences_have_the_error_of_differences_rock_by_rock)
 {
     const uint64_t rocks = 6000;
     open_sides();
-    for (int other = 0; other < 2; other++) { /* the small change, no forest */
+    for (int other = 0; other < 2; other++) { /* the small change; no forest */
         const struct ceduo_option *option = other ? NULL : &sides.options[1];
         LOCAL(ceduo_run, run) = run_option(&site.scene, option, rocks, 2);
         LOCAL(ceduo_run, base) = run_option(&site.scene, &sides.options[0], rocks, 2);
         struct ceduo_difference d = ceduo_run_difference(run, base, 0);
-        struct pair_moments m = pairs_of(option, &sides.options[0], rocks);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
-        struct ceduo_arrivals b = arrivals_of(base, 0);
+        struct pair_moments m = read_pairs(option, &sides.options[0], rocks);
+        struct ceduo_arrivals a = read_arrivals(run, 0);
+        struct ceduo_arrivals b = read_arrivals(base, 0);
         expect_pair("difference of shares that pass", &d.reach, &m.reach, a.reach.mean, b.reach.mean);
         expect_pair("difference of shares above what is accepted", &d.exceed, &m.exceed, a.exceed.mean, b.exceed.mean);
         expect_pair("difference of J per released", &d.energy_per_released, &m.energy, a.energy_per_released.mean,
                     b.energy_per_released.mean);
-        double apart = hypot(a.energy_per_released.se, b.energy_per_released.se);
-        EXPECT(d.energy_per_released.se, <, (other ? 1 : .5) * apart);
+        double separate = hypot(a.energy_per_released.se, b.energy_per_released.se);
+        EXPECT(d.energy_per_released.se, <, (other ? 1 : .5) * separate);
     }
 }
 
@@ -133,7 +133,7 @@ TEST(the_same_bits_among_stems_with_any_number_of_threads_and_steps)
     expect_same_however(def, 5000);
 }
 
-TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
+TEST(a_run_among_stems_equals_single_trajectories)
 {
     open_sides();
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
@@ -141,22 +141,22 @@ TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
     EXPECT(expect_as_followed(def, 3000).reached, >, 2000);
 }
 
-/* A rock that is not followed to its end, for there were too many stems, has arrived wherever it came before: from its release, and
- * from a contact, behind which many rocks fly together. */
-TEST(a_rock_that_is_given_up_has_arrived_before)
+/* A rock aborted because of too many stems has reached the controls it passed before: from its release, and from a contact from
+ * which many rocks fly together. */
+TEST(an_aborted_rock_has_reached_earlier_controls)
 {
     enum { ROCKS = 10 };
     clear_plane(20000);
     plane.line.scene.release.height.mean = 5;
-    plant_trees(plant_belt(0, 20000, 0, 0), 1e6, .01)->height = 2; /* all of them are flown over */
+    plant_trees(plant_belt(0, 20000, 0, 0), 1e6, .01)->height = 2; /* the rock flies over all of them */
     plane.line.scene.controls_count = 1;
     plane.line.control = (struct ceduo_control){.x = 10000, .accepted = NAN, .measured_speed = NAN};
     for (uint64_t contact = 0; contact < 2; contact++) {
         plane.line.scene.release.vz.mean = contact ? -1e5 : 0;
         LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, ROCKS, 1);
-        struct ceduo_arrivals a = arrivals_of(run, 0);
+        struct ceduo_arrivals a = read_arrivals(run, 0);
         EXPECT_IS(a, (reached, ROCKS), (unfinished, 0));
-        assert_int_equal(ends_of(run).count[CEDUO_UNFINISHED], ROCKS);
+        assert_int_equal(read_ends(run).count[CEDUO_UNFINISHED], ROCKS);
         struct ceduo_trajectory way;
         struct ceduo_crossing c;
         assert_int_equal(ceduo_trajectory_run(&plane.line.scene, &plane.line.option, 0, NULL, &way, &c), CEDUO_OK);
@@ -166,9 +166,9 @@ TEST(a_rock_that_is_given_up_has_arrived_before)
     }
 }
 
-/* The same of a rock that rolls, each contact a radius far: in wide groups most trees stand beside its way, so that it is given up
- * between two that it hits, and within a radius. */
-TEST(a_rock_that_is_given_up_has_arrived_where_it_rolled)
+/* The same for a rolling rock, with a contact per radius: in wide groups most trees stand off its path, so that it is aborted
+ * between two hits and within a radius. */
+TEST(an_aborted_rock_has_reached_the_end_of_its_roll)
 {
     clear_plane(20000);
     line_scene_release(&plane.line, 0, 0, 2e5, 0, 0);
@@ -182,17 +182,17 @@ TEST(a_rock_that_is_given_up_has_arrived_where_it_rolled)
     plane.line.scene.controls_count = 1;
     plane.line.control = (struct ceduo_control){.x = (before + sweep.way.x) / 2, .accepted = NAN, .measured_speed = NAN};
     LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, 1, 1);
-    EXPECT_IS(arrivals_of(run, 0), (reached, 1), (unfinished, 0));
+    EXPECT_IS(read_arrivals(run, 0), (reached, 1), (unfinished, 0));
 }
 
-/* Of blocks of all sizes the same by their weights; the error of the mean is what a regression on the weights leaves (Cochran
- * 1977), and what it spreads from seed to seed. */
+/* The same for blocks of all sizes with their weights. The error of the mean is the residual of a regression on the weights
+ * (Cochran 1977), and its spread between seeds. */
 TEST(stems_hit_by_blocks)
 {
     enum { ROCKS = 400, SEEDS = 200 };
     static double volumes[] = {.05, 1}, own[ROCKS];
     struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
-    struct ceduo_moments over = {0}, errors = {0};
+    struct ceduo_moments above = {0}, errors = {0};
     struct ceduo_arrivals a;
     open_sides();
     site.scene.blocks = &blocks;
@@ -201,7 +201,7 @@ TEST(stems_hit_by_blocks)
         site.scene.simulation.seed = seed;
         struct ceduo_run *run = run_option(&site.scene, &sides.options[0], ROCKS, 1);
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        ceduo_moments_add(&over, a.contacts.mean);
+        ceduo_moments_add(&above, a.contacts.mean);
         ceduo_moments_add(&errors, a.contacts.se);
         if (seed < SEEDS) {
             ceduo_run_free(run);
@@ -233,11 +233,11 @@ TEST(stems_hit_by_blocks)
         expect_exact("their error", a.contacts.se, sqrt((xx - wx * wx / ww) * ROCKS / (ROCKS - 1)) / reached, 1e-9);
         ceduo_run_free(run);
     }
-    double ratio = ceduo_moments_sd(&over) / errors.mean;
+    double ratio = ceduo_moments_sd(&above) / errors.mean;
     EXPECT_NEAR(ratio, 1, 4 / sqrt(2. * SEEDS));
 }
 
-/* A run that was made longer than others keeps its figures; the difference is of the rocks that both have. */
+/* Extending one run keeps its figures; the difference uses the rocks of both runs. */
 TEST(a_longer_run_keeps_its_figures)
 {
     open_sides();
@@ -253,7 +253,7 @@ TEST(a_longer_run_keeps_its_figures)
     assert_int_equal(ceduo_pool_extend(pool, 600), CEDUO_OK);
     assert_int_equal(ceduo_pool_simulate(pool, &sides.options[1], 1500, &longer), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
-    struct ceduo_arrivals wanted = arrivals_of(alone, 0);
+    struct ceduo_arrivals wanted = read_arrivals(alone, 0);
     ROWS(EXPECT, (result->bare.rocks, ==, 600), (result->options[0].wooded.rocks, ==, 600),
          (result->options[1].wooded.rocks, ==, 1500));
     const struct ceduo_arrivals *a = ceduo_result_wooded(result, 1, 0);
@@ -269,8 +269,8 @@ TEST(a_longer_run_keeps_its_figures)
     ceduo_run_free(few[1]);
 }
 
-/* Behind every stem a flight or roll is computed afresh; where the stem takes nothing that must not show. */
-TEST(stems_that_take_nothing_leave_the_way_as_it_is)
+/* After every stem a flight or roll is computed again; a stem that takes no energy must not change it. */
+TEST(stems_that_take_nothing_do_not_change_the_trajectory)
 {
     const uint64_t rocks = 4000;
     uint64_t same = 0;
@@ -281,7 +281,7 @@ TEST(stems_that_take_nothing_leave_the_way_as_it_is)
         p->shoots.volume = p->trees.volume = 1e-25;
         p->shoots.height = p->trees.height = 1e3;
     }
-    site.belts[0].from = -5; /* stools before the release reach over it */
+    site.belts[0].from = -5; /* stools above the release reach over it */
     struct ceduo_tracer *f = ceduo_tracer_create(&site.scene, &site.option);
     struct ceduo_tracer *bare = ceduo_tracer_create(&site.scene, NULL);
     assert_true(f);
@@ -307,7 +307,7 @@ TEST(stems_that_take_nothing_leave_the_way_as_it_is)
     ceduo_tracer_free(f);
     ceduo_tracer_free(bare);
     print_message("# %ju of %ju ways the same\n", (uintmax_t)same, (uintmax_t)rocks);
-    EXPECT(same, >, rocks * 98 / 100); /* some turn elsewhere by rounding */
+    EXPECT(same, >, rocks * 98 / 100); /* rounding turns some elsewhere */
     expect_mean("stems per metre of ADS 1 on the paper's site", &met[0], per_metre(9076, B + .061));
     expect_mean("stems per metre of ADS 2 on the paper's site", &met[1], per_metre(4641, B + .047));
 }
@@ -331,8 +331,8 @@ TEST(options_with_the_same_stems_share_a_run)
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     struct ceduo_work work = ceduo_pool_work(pool);
-    assert_int_equal(work.runs, 3);   /* without forest, the paper's, the shorter */
-    assert_int_equal(work.reused, 5); /* of 4 options, each with its forest and without, 8 in all */
+    assert_int_equal(work.runs, 3);   /* without forest, the paper's forest, the shorter one */
+    assert_int_equal(work.reused, 5); /* 4 options, each with and without its forest: 8 in all */
     assert_ptr_equal(ceduo_pool_find(pool, &options[1]), ceduo_pool_find(pool, &options[0]));
     assert_ptr_not_equal(ceduo_pool_find(pool, &options[2]), ceduo_pool_find(pool, &options[0]));
     assert_ptr_equal(ceduo_pool_find(pool, &options[3]), ceduo_pool_find(pool, NULL));

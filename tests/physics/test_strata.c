@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What else rocks meet in a stand: stumps, lying logs, trees in groups. */
+/* Other obstacles in a stand: stumps, lying logs, trees in groups. */
 #include "expect.h"
 
 #include <gsl/gsl_randist.h>
@@ -11,12 +11,12 @@
 
 /* ---- stumps and logs ---- */
 
-/* Stumps are met as trees of their height are, whatever the law of the stems, and take their own energy. */
+/* Rocks meet stumps as they meet trees of that height, whatever the law of the stems; stumps take their own energy. */
 TEST(stumps_are_met_as_low_trees)
 {
     struct spread met = {0};
     for (int low = 0; low < 2; low++) {
-        clear_plane(520); /* the rock's underside is .95 to 1 m high */
+        clear_plane(520); /* the rock's underside is at .95 to 1 m */
         struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
         belt->stand.energy = CEDUO_DORREN;
         belt->stand.stumps = (struct ceduo_stumps){.per_ha = 900, .diameter = .25, .height = low ? .9 : 1.1, .energy = 1500};
@@ -34,7 +34,7 @@ TEST(stumps_are_met_as_low_trees)
     expect_mean("stumps per metre", &met, per_metre(900, B + .25));
 }
 
-/* Of N logs per square metre, drawn at random angles, those that touch a strip as wide as the rock: Buffon. */
+/* Return how many of N logs per square metre, at random angles, touch a strip as wide as the rock: Buffon. */
 static double drawn_logs_per_metre(double per_ha, double length, gsl_rng *rng)
 {
     const double along = 4000, half = (B + length) / 2;
@@ -64,14 +64,13 @@ TEST(logs_are_met_as_buffons_needles)
     gsl_rng_free(rng);
     expect_mean("logs per metre", &met, wanted);
     expect_mean("logs drawn", &drawn, wanted);
-    belt->stand.logs.diameter = .9; /* lower than the rock is high */
+    belt->stand.logs.diameter = .9; /* below the height of the rock */
     sweep_one(1);
     EXPECT(sweep.count, >, 0);
     EXPECT(sweep.way.stems_hit, ==, 0);
 }
 
-/* By the index they are strata of their own in every form of the ADC; poisson takes the same; they do not count for the
- * lights. */
+/* In the index they are separate strata in every form of the ADC; poisson takes the same energy; the lights ignore them. */
 TEST(the_index_has_stumps_and_logs)
 {
     struct paper_site site;
@@ -90,7 +89,7 @@ TEST(the_index_has_stumps_and_logs)
     EXPECT_IS(r, (stumps_per_ha, 500), (logs_per_ha, 80));
     assert_true(r.warnings & CEDUO_WARN_LOW);
     site.belts[0] = belt;
-    site.scene.simulation.contact_dbh = .065; /* neither do the paper's stems */
+    site.scene.simulation.contact_dbh = .065; /* nor do the paper's stems count */
     struct ceduo_index i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
     EXPECT(i.contact, ==, CEDUO_FAIL);
     site.scene.simulation.contact_dbh = 0;
@@ -123,7 +122,7 @@ static struct ceduo_belt *plant_groups(double from, double to, double per_ha, un
     return belt;
 }
 
-/* How many trees of groups a strip of `length` m meets, all drawn in the plane, inside the wood. */
+/* Return how many trees of groups a strip of `length` m meets, all drawn in the plane, inside the forest. */
 static unsigned drawn_trees(double per_ha, unsigned n, double radius, double length, gsl_rng *rng)
 {
     const double half = (B + TREE) / 2, wide = 2 * (half + radius), far = length + 2 * radius;
@@ -147,8 +146,8 @@ struct group_case {
     double radius, per_ha, threshold;
 };
 
-/* The chance of a free run by quadrature beside 10^5 strips drawn in the plane, and beside what rocks meet; and how many
- * they meet, with the variance that clumps have. */
+/* The probability of a free run by quadrature, in 10^5 strips drawn in the plane, and for rocks; and the number of encounters,
+ * with the variance of clumps. */
 TEST(free_runs_past_groups)
 {
     static const struct group_case cases[] = {{2, .1, 600, 10}, {5, 2, 400, 30},  {6, 4, 300, 20},
@@ -156,7 +155,7 @@ TEST(free_runs_past_groups)
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     for (size_t k = 0; k < LENGTH(cases); k++) {
         const struct group_case *c = &cases[k];
-        uint64_t free = 0, flown = 0, strips = 100000, rocks = 10000;
+        uint64_t free = 0, free_rocks = 0, strips = 100000, rocks = 10000;
         struct spread met = {0}, drawn = {0};
         clear_plane(120);
         struct ceduo_belt *belt = plant_groups(10, 110, c->per_ha, c->n, c->radius);
@@ -172,11 +171,11 @@ TEST(free_runs_past_groups)
             size_t n = 0;
             for (size_t i = 0; i < sweep.count; i++)
                 n += sweep.stems[i].x >= 60 - c->threshold / 2 && sweep.stems[i].x <= 60 + c->threshold / 2;
-            flown += n == 0;
+            free_rocks += n == 0;
             spread_add(&met, (double)n);
         }
         const char *what = named("%u trees in %g m, flown", c->n, c->radius);
-        expect_share(what, flown, rocks, wanted);
+        expect_share(what, free_rocks, rocks, wanted);
         expect_mean(what, &met, c->threshold * per_metre(c->per_ha, B + TREE));
         expect_close(what, spread_variance(&met), spread_variance_se(&met), spread_variance(&drawn),
                      spread_variance_se(&drawn));
@@ -184,12 +183,12 @@ TEST(free_runs_past_groups)
     gsl_rng_free(rng);
 }
 
-/* A belt is as dense at its ends as elsewhere, and none of its trees stands outside; of the whole belt the chance to meet
- * nothing is that of the summary. */
+/* A belt is as dense at its ends as elsewhere, and all its trees stand inside. The summary has the probability to meet nothing
+ * in the whole belt. */
 TEST(groups_keep_to_their_belt)
 {
     struct spread first = {0}, last = {0}, all = {0};
-    uint64_t none = 0;
+    uint64_t missed = 0;
     const uint64_t rocks = 20000;
     clear_plane(80);
     plant_groups(20, 50, 400, 5, 4);
@@ -204,20 +203,20 @@ TEST(groups_keep_to_their_belt)
             a += sweep.stems[i].x < 22;
             b += sweep.stems[i].x > 48;
         }
-        none += sweep.count == 0;
+        missed += sweep.count == 0;
         spread_add(&first, (double)a / 2);
         spread_add(&last, (double)b / 2);
         spread_add(&all, (double)sweep.count / 30);
-        assert_int_equal(sweep.way.stools_met, sweep.count); /* each tree is one by itself */
-        assert_int_equal(different(false), sweep.count);
+        assert_int_equal(sweep.way.stools_met, sweep.count); /* each tree is single */
+        assert_int_equal(count_different(false), sweep.count);
     }
     ROWS(expect_mean, ("per metre", &all, per_metre(400, B + TREE)),
          ("per metre at the first end", &first, per_metre(400, B + TREE)),
          ("per metre at the last end", &last, per_metre(400, B + TREE)));
-    expect_share("nothing met in the belt", none, rocks, index.meet_nothing_probability);
+    expect_share("nothing met in the belt", missed, rocks, index.meet_nothing_probability);
 }
 
-/* Groups around the release: as many trees before the rock as behind it, whichever way it goes. */
+/* Groups around the release: equally many trees above and below, whichever way the rock goes. */
 TEST(groups_stand_around_the_release)
 {
     for (int way = -1; way <= 1; way += 2) {
@@ -236,7 +235,7 @@ TEST(groups_stand_around_the_release)
         }
         expect_mean("per metre beside the release", &met, per_metre(400, B + TREE));
     }
-    /* so many around it that drawing them pauses */
+    /* enough around it to pause drawing */
     clear_plane(120);
     plant_groups(10, 110, 1e5, 200, 30);
     line_scene_release(&plane.line, 60, 1, -1200, 0, 0);
@@ -248,7 +247,7 @@ TEST(groups_stand_around_the_release)
     expect_mean("per metre behind the release, dense", &met, per_metre(1e5, B + TREE));
 }
 
-/* radius 0: n trees at one place; a very large one: single trees. */
+/* radius 0: n trees at one place; a very large radius: single trees. */
 TEST(limits_of_groups)
 {
     clear_plane(520);
@@ -271,21 +270,21 @@ TEST(limits_of_groups)
     EXPECT_NEAR(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, exp(-12 * rate / 5), 1e-4);
     belt->stand.trees[0].group_radius = 100;
     EXPECT_NEAR(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, exp(-12 * rate), 1e-3);
-    belt->stand.trees[0].group = 1; /* each by itself */
+    belt->stand.trees[0].group = 1; /* each single */
     EXPECT(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, ==, exp(-12 / r.adc.crofton));
-    belt->stand.trees[0].group = 5; /* thinner than what counts */
+    belt->stand.trees[0].group = 5; /* thinner than the counted minimum */
     plane.line.scene.simulation.contact_dbh = .5;
     EXPECT(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, ==, 1);
 }
 
-/* Diameters that spread: as many are met as of single trees. */
+/* With varying diameters rocks meet as many as of single trees. */
 TEST(groups_of_trees_that_differ)
 {
     struct spread met = {0};
     clear_plane(520);
     struct ceduo_belt *belt = plant_groups(10, 510, 300, 4, 5);
     belt->stand.trees[0].dbh_sd = .12;
-    plant_shoots(belt, 900, .1); /* and stools among them, */
+    plant_shoots(belt, 900, .1); /* with stools among them, */
     belt->stand.stools_per_ha = 300;
     belt->stand.spacing = .4;
     for (SWEEP(number, 2000)) {
@@ -293,7 +292,7 @@ TEST(groups_of_trees_that_differ)
         for (size_t i = 0; i < sweep.count; i++) {
             n += !sweep.stems[i].shoot;
             EXPECT(fabs(sweep.stems[i].y), <=, (B + sweep.stems[i].dbh) / 2);
-            EXPECT(sweep.stems[i].x, >=, sweep.stems[i > 0 ? i - 1 : 0].x); /* in the order they stand */
+            EXPECT(sweep.stems[i].x, >=, sweep.stems[i > 0 ? i - 1 : 0].x); /* in the order of position */
         }
         spread_add(&met, (double)n / 500);
     }
@@ -333,14 +332,14 @@ TEST(stumps_and_groups_over_the_years)
     }
     stand.growth.stump_years = 0;
     assert_int_equal(ceduo_stand_at(&stand, NAN, 0, &grown), CEDUO_OK);
-    EXPECT(grown.stand.stumps.per_ha, ==, 900); /* as filed */
+    EXPECT(grown.stand.stumps.per_ha, ==, 900); /* as in the file */
     ceduo_grown_stand_release(&grown);
     assert_int_equal(ceduo_stand_at(&stand, NAN, 16, &grown), CEDUO_OK);
     EXPECT(grown.stand.stumps.per_ha, ==, 0);
     ceduo_grown_stand_release(&grown);
     stand.growth.stump_years = 7;
     shoots.age = NAN;
-    shoots.dbh = .5; /* as thick as they get: it was cut long ago */
+    shoots.dbh = .5; /* at maximum diameter: the last cut was long ago */
     assert_int_equal(ceduo_stand_at(&stand, INFINITY, 1, &grown), CEDUO_OK);
     EXPECT(grown.stand.stumps.per_ha, ==, 0);
     ceduo_grown_stand_release(&grown);
@@ -348,7 +347,7 @@ TEST(stumps_and_groups_over_the_years)
     assert_int_equal(ceduo_stand_at(&stand, INFINITY, 6, &grown), CEDUO_OK);
     EXPECT(grown.stand.stumps.per_ha, ==, 900);
     ceduo_grown_stand_release(&grown);
-    memset(&stand.growth, 0, sizeof stand.growth); /* nothing is known: all stays */
+    memset(&stand.growth, 0, sizeof stand.growth); /* unknown: all stay */
     assert_int_equal(ceduo_stand_at(&stand, INFINITY, 30, &grown), CEDUO_OK);
     EXPECT(grown.stand.stumps.per_ha, ==, 900);
     ceduo_grown_stand_release(&grown);

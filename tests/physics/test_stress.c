@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Random scenes in bulk and nasty ones by name: what holds on any ground (invariants.h), the same bits when run again, no
- * invalid operation, and counts that add up.
+/* Random scenes in bulk and difficult ones by name: rules for any ground (invariants.h), equal bits in a second run, no invalid
+ * operation, and consistent counts.
  *
- *   STRESS=SCENES STRESS_FIRST=FIRST test_stress     default 15000 random scenes, 40000 with FULL; `make stress` has ten million
+ * STRESS=SCENES STRESS_FIRST=FIRST test_stress default 15000 random scenes, 40000 with FULL; `make stress` has ten million
  *
- * Invalid operations, divisions by zero and overflows are looked for while a rock goes its way, and fail the test; but
- * for flights whose horizontal speed is below 1e-150 m/s. For them the time to the next vertex overflows by design, even to
- * infinity, which times 0 is NaN, and a comparison with that is a contact. (Reading a scene may compare with NaN: that is
- * how it says that a number is not given.) */
+ * An invalid operation, a division by zero or an overflow during a trajectory fails the test, except in flights with a
+ * horizontal speed below 1e-150 m/s. There the time to the next vertex overflows by design, even to infinity. Times 0 this is
+ * NaN, and a comparison with it counts as a contact. (Reading a scene may compare with NaN, which means "not given".) */
 #include "expect.h"
 #include "full.h"
 #include "local.h"
@@ -22,13 +21,13 @@
 #include "runs.h"
 
 #define LASTING_EVERY 5000
-#define RUN_EVERY     64 /* scenes of which one is flown as a run, too */
+#define RUN_EVERY     64 /* one scene in this many is also simulated as a run */
 #define CONTROLS      5
-#define ROCKS         11 /* of a nasty scene */
+#define ROCKS         11 /* per difficult scene */
 
 static uint64_t scenes, first = 1000000;
 static uint64_t run_rocks = 40;
-static int by_design; /* floating-point exceptions that may be raised */
+static int by_design; /* floating-point exceptions that are allowed */
 
 /* ---- one scene ---- */
 
@@ -37,7 +36,7 @@ struct result {
     struct ceduo_crossing crossing;
 };
 
-/* Without -ffp-exception-behavior clang may compute what a branch then does not need: what that raises says nothing. */
+/* Without -ffp-exception-behavior clang may compute the untaken branch: its exceptions mean nothing. */
 #ifdef __clang__
 #define RAISED 0
 #else
@@ -59,7 +58,7 @@ static void follow(const struct line_scene *s, uint64_t rock, struct result *r)
                  raised & FE_OVERFLOW ? " overflow" : "");
 }
 
-/* Returns where the way ends. */
+/* Return the trajectory; a second simulation gives the same bits. */
 static struct ceduo_trajectory expect_the_same_again(const struct line_scene *s, uint64_t rock)
 {
     struct result a, b;
@@ -71,8 +70,8 @@ static struct ceduo_trajectory expect_the_same_again(const struct line_scene *s,
     return a.way;
 }
 
-/* Whether two ways are the same but for rounding. */
-static bool are_alike(const struct ceduo_trajectory *a, const struct ceduo_trajectory *b)
+/* True if two trajectories are equal within rounding. */
+static bool is_close(const struct ceduo_trajectory *a, const struct ceduo_trajectory *b)
 {
     return a->end == b->end && a->contacts == b->contacts && fabs(a->x - b->x) <= 1e-6 * (1 + fabs(b->x));
 }
@@ -87,7 +86,8 @@ static void expect_distribution(const struct ceduo_distribution *d, uint64_t n)
     assert_true(n == 1 || (isfinite(d->se) && d->se >= 0));
 }
 
-/* A run of the scene: as many ends as rocks; no control is reached by more rocks than one before it. */
+/* Simulate the scene as a run: ends sum to the rocks, and a later control is never reached by more rocks than an earlier
+ * one. */
 static void expect_counts(const struct line_scene *s)
 {
     struct ceduo_scene scene = s->scene;
@@ -106,13 +106,13 @@ static void expect_counts(const struct line_scene *s)
     LOCAL(ceduo_run, run);
     assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
     assert_int_equal(ceduo_run_extend(run, run_rocks), CEDUO_OK);
-    struct ceduo_ends ends = ends_of(run);
+    struct ceduo_ends ends = read_ends(run);
     uint64_t sum = 0, before = run_rocks;
     for (int i = 0; i < CEDUO_ENDS; i++)
         sum += ends.count[i];
     assert_int_equal(sum, run_rocks);
     for (size_t i = 0; i < n; i++) {
-        struct ceduo_arrivals a = arrivals_of(run, i);
+        struct ceduo_arrivals a = read_arrivals(run, i);
         ROWS(EXPECT, (a.released, ==, run_rocks), (a.reached, <=, before), (a.exceeded, <=, a.reached),
              (a.unfinished, <=, ends.count[CEDUO_UNFINISHED]), (a.reached + a.unfinished, <=, run_rocks));
         ROWS(expect_distribution, (&a.speed, a.reached), (&a.energy, a.reached), (&a.height, a.reached));
@@ -127,14 +127,14 @@ TEST(random_scenes)
     static struct line_scene scene;
     struct invariants_tally t = {0}, of_arm = {0};
     uint64_t parted = 0;
-    by_design = FE_OVERFLOW; /* some rock in millions moves by 1e-166 m/s: t2 to the next vertex is infinite, it lands before */
+    by_design = FE_OVERFLOW; /* one rock in millions moves at 1e-166 m/s: t2 to the next vertex is infinite, it lands before */
     for (uint64_t number = first; number < first + scenes; number++) {
         line_scene_random(&scene, number, LASTING_EVERY);
         invariants_expect(&scene, number, &t);
         if (line_scene_lasts(&scene))
             continue;
         struct ceduo_trajectory unseen = expect_the_same_again(&scene, number % 11);
-        parted += !are_alike(&unseen, &t.last); /* nobody looks on: rolls pass whole segments */
+        parted += !is_close(&unseen, &t.last); /* without a callback rolls pass whole segments */
         if (number % RUN_EVERY == 0)
             expect_counts(&scene);
         if (number % 4 != 0)
@@ -146,7 +146,7 @@ TEST(random_scenes)
     for (int i = 0; i < CEDUO_ENDS; i++)
         sum += t.ends[i];
     assert_int_equal(sum, scenes);
-    if (scenes >= 1000) /* they are worth looking at */
+    if (scenes >= 1000) /* enough scenes for statistics */
         ROWS(EXPECT, (t.flights, >, 4 * scenes), (t.impacts, >, scenes), (t.ends[CEDUO_AT_REST], >, scenes / 10),
              (t.ends[CEDUO_LEFT_SLOPE], >, scenes / 10), (t.crossed, >, scenes / 10), (of_arm.crossed, >, scenes / 40));
     print_message("%ju scenes: %ju at rest, %ju left, %ju unfinished (%ju may last, %ju sink in a crack), %ju contacts; "
@@ -159,12 +159,12 @@ TEST(random_scenes)
     by_design = 0;
 }
 
-/* ---- nasty scenes ---- */
+/* ---- difficult scenes ---- */
 
 static struct line_scene s;
 static const struct line_ground earth = {.rn = .35, .rt = .85, .friction = .5};
 
-/* Sets the profile; the rest with look(). */
+/* Set the profile; the rest follows in try_release(). */
 static void profile(size_t vertices, const double *x, const double *z, struct line_ground ground, double radius)
 {
     line_scene_init(&s, vertices, x, z, ground, radius, CEDUO_LAW_LUMPED);
@@ -175,8 +175,8 @@ static void release(double x, double height, double vx, double vz)
     line_scene_release(&s, x, height, vx, vz, 0);
 }
 
-/* From a release: both laws, facets to either side, smooth and rough, with and without the friction bound. */
-static void look(double from, double height, double vx, double vz)
+/* Simulate a release: both laws, facets to either side, smooth and rough, with and without the friction bound. */
+static void try_release(double from, double height, double vx, double vz)
 {
     struct invariants_tally t = {0};
     uint64_t number = 0;
@@ -206,11 +206,11 @@ TEST(grazing_contacts)
     for (double v = 1e-3; v < 100; v *= 10) {
         for (double height = 1e-15; height < 1; height *= 1e3) {
             profile(4, x, z, earth, .3);
-            look(1, height, v, -.5 * v);
+            try_release(1, height, v, -.5 * v);
         }
-        for (int ulps = -2; ulps <= 2; ulps++) { /* along the ground but for the last bits */
+        for (int ulps = -2; ulps <= 2; ulps++) { /* along the ground within the last bits */
             profile(4, x, z, earth, .3);
-            look(1, 0, v, -.5 * v * (1 + ulps * 0x1p-52));
+            try_release(1, 0, v, -.5 * v * (1 + ulps * 0x1p-52));
         }
     }
 }
@@ -221,11 +221,11 @@ TEST(launch_at_a_vertex)
     for (size_t i = 0; i < LENGTH(x) - 1; i++)
         for (int turn = 0; turn < 16; turn++) {
             profile(LENGTH(x), x, z, earth, .3);
-            look(x[i], 0, 4 * cos(turn * M_PI / 8), 4 * sin(turn * M_PI / 8));
+            try_release(x[i], 0, 4 * cos(turn * M_PI / 8), 4 * sin(turn * M_PI / 8));
         }
 }
 
-/* With g = 8 and vx = 1 a fall of 4 m takes 1 s and 1 m: all of it without rounding. */
+/* With g = 8 and vx = 1 a fall of 4 m takes 1 s and 1 m, without rounding. */
 TEST(flights_through_a_vertex_to_the_last_bit)
 {
     for (int ulps = -1; ulps <= 1; ulps++)
@@ -234,7 +234,7 @@ TEST(flights_through_a_vertex_to_the_last_bit)
             const double x[] = {0, .5, 1, 1.5, 20}, z[] = {4, peak ? 0 : 4 - 1.5, at - 4, -6, -30};
             profile(5, x, z, earth, .05);
             s.scene.simulation.gravity = 8;
-            look(0, 0, 1, 0);
+            try_release(0, 0, 1, 0);
         }
 }
 
@@ -246,21 +246,21 @@ TEST(corners_of_one_degree)
     for (double r = 1e-3; r <= 1; r *= 10)
         for (double v = .5; v < 20; v *= 3) {
             profile(5, notch_x, notch_z, earth, r);
-            look(9, .5, v, 0);
+            try_release(9, .5, v, 0);
             profile(5, peak_x, peak_z, earth, r);
-            look(9, 1, v, 14);
+            try_release(9, 1, v, 14);
         }
 }
 
-TEST(walls_all_but_upright)
+TEST(almost_vertical_walls)
 {
     for (double run = 1e-9; run < 1e-2; run *= 100) {
         const double x[] = {0, 5, 5 + run, 20, 20 + run, 40}, z[] = {0, -2, -102, -104, -54, -60};
         for (double v = 1e-3; v < 100; v *= 10) {
             profile(6, x, z, earth, .3);
-            look(4, 0, v, 0);
+            try_release(4, 0, v, 0);
             profile(6, x, z, earth, .3);
-            look(19, 30, v, 3);
+            try_release(19, 30, v, 3);
         }
     }
 }
@@ -275,7 +275,7 @@ TEST(slivers)
         }
         for (double v = 1e-3; v < 100; v *= 10) {
             profile(41, x, z, earth, .3);
-            look(.5, .2, v, 0);
+            try_release(.5, .2, v, 0);
         }
     }
 }
@@ -286,9 +286,9 @@ TEST(large_coordinates)
         const double x[] = {0, .3 * size, .31 * size, .9 * size, size};
         const double z[] = {0, -.25 * size, -.24 * size, -.6 * size, -.61 * size};
         profile(5, x, z, earth, .3);
-        look(.299 * size, 1, 5, 0);
+        try_release(.299 * size, 1, 5, 0);
         profile(5, x, z, earth, .3);
-        look(size - 3, 1, -5, 0);
+        try_release(size - 3, 1, -5, 0);
     }
 }
 
@@ -298,19 +298,19 @@ TEST(little_and_much_gravity)
     for (double g = 1e-3; g <= 1e3; g *= 10) {
         profile(5, x, z, earth, .3);
         s.scene.simulation.gravity = g;
-        look(1, 2, 1, 0);
+        try_release(1, 2, 1, 0);
     }
 }
 
-/* Where all is 1 the rocks may go on for ever, and are counted as unfinished. */
-TEST(shares_of_none_and_all)
+/* If all shares are 1 rocks may never stop, and count as unfinished. */
+TEST(shares_of_0_and_1)
 {
     const double x[] = {0, 10, 20, 30}, z[] = {0, -8, -9, -9};
     run_rocks = 2;
     for (int rn = 0; rn < 2; rn++)
         for (int rt = 0; rt < 2; rt++) {
             profile(4, x, z, (struct line_ground){rn, rt, .5}, .3);
-            look(1, 2, 1, 0);
+            try_release(1, 2, 1, 0);
         }
     run_rocks = 40;
 }
@@ -320,7 +320,7 @@ TEST(small_and_large_rocks)
     const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
     for (double r = 1e-3; r <= 100; r *= 10) {
         profile(5, x, z, earth, r);
-        look(1, .2, 1, 0);
+        try_release(1, .2, 1, 0);
     }
 }
 
@@ -330,16 +330,16 @@ TEST(slow_and_fast_rocks)
     for (double v = 1e-12; v <= 1e3; v *= 10)
         for (int turn = 0; turn < 8; turn++) {
             profile(5, x, z, earth, .3);
-            look(15, turn & 1 ? .5 : 0, v * cos(turn * M_PI / 4), v * sin(turn * M_PI / 4));
+            try_release(15, turn & 1 ? .5 : 0, v * cos(turn * M_PI / 4), v * sin(turn * M_PI / 4));
         }
     by_design = FE_OVERFLOW | FE_INVALID;
     static const double tiny[] = {0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-150};
     for (size_t i = 0; i < LENGTH(tiny); i++)
         for (int side = -1; side <= 1; side += 2) {
             profile(5, x, z, earth, .3);
-            look(15, .5, side * tiny[i], 0);
+            try_release(15, .5, side * tiny[i], 0);
             profile(5, x, z, earth, .3);
-            look(20, 0, side * tiny[i], 1);
+            try_release(20, 0, side * tiny[i], 1);
         }
     by_design = 0;
 }
@@ -377,8 +377,8 @@ TEST(rebounds_without_end)
     EXPECT_IS(r.way, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 5));
 }
 
-/* Random scenes in which a rock goes to and fro in a crack of 12 or 42 micrometres, or of 8 nanometres where it hops along one
- * wall now and then, or on its bottom with Rn = 1, where the law takes less and less: more contacts than are counted. */
+/* Random scenes in which a rock bounces in a crack of 12 or 42 micrometres, or of 8 nanometres. It hops along one wall at
+ * times, or on the bottom with Rn = 1, at which the law takes less and less: more contacts than the limit. */
 TEST(cracks)
 {
     static const uint64_t numbers[] = {123445, 2688044, 5280488, 8903797};
@@ -388,12 +388,12 @@ TEST(cracks)
         line_scene_random(&scene, numbers[i], LASTING_EVERY);
         scene.scene.simulation.friction_bound = true;
         invariants_expect(&scene, numbers[i], &bound);
-        scene.scene.simulation.friction_bound = false; /* the numbers were found with the published laws */
+        scene.scene.simulation.friction_bound = false; /* found with the published laws */
         invariants_expect(&scene, numbers[i], &t);
     }
     EXPECT(t.cracks, ==, LENGTH(numbers));
     EXPECT(t.ends[CEDUO_UNFINISHED], ==, LENGTH(numbers));
-    line_scene_random(&scene, 3596987, LASTING_EVERY); /* one of 60 nm, in which it rests on the wall */
+    line_scene_random(&scene, 3596987, LASTING_EVERY); /* a crack of 60 nm, in which it rests on the wall */
     scene.scene.simulation.friction_bound = false;
     invariants_expect(&scene, 3596987, &t);
     EXPECT(t.last.end, ==, CEDUO_AT_REST);
@@ -408,9 +408,9 @@ TEST(pits)
                 const double x[] = {0, 5, 5 + width, 5 + width + bottom + 1e-3, 6 + 2 * width + bottom, 40};
                 const double z[] = {0, -1, -1 - depth, -1 - depth, -1, -5};
                 profile(6, x, z, earth, .3);
-                look(4, .1, 2, 0);
+                try_release(4, .1, 2, 0);
                 profile(6, x, z, (struct line_ground){.2, .99, 0}, .3);
-                look(5 + width, 0, 0, 0);
+                try_release(5 + width, 0, 0, 0);
             }
 }
 
@@ -427,11 +427,11 @@ TEST(noise_of_every_size)
                     z[i] = -.7 * x[i] + height * (style ? (double)(i % 2) : line_uniform(&random, -1, 1));
                 }
                 profile(LINE_SEGMENTS_MAX + 1, x, z, earth, radius);
-                look(scale * 3.3, .1, 2, 0);
+                try_release(scale * 3.3, .1, 2, 0);
             }
 }
 
-/* A million segments, finer than rounding lets most tools have them. */
+/* A million segments, finer than most tools can round. */
 TEST(a_million_segments)
 {
     const size_t vertices = 1000001;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: threads */
-/* An option year by year: beside the same stands grown, flown and assessed one by one. */
+/* An option year by year, compared with the same stands grown, simulated and assessed one by one. */
 #include "expect.h"
 #include "local.h"
 
@@ -13,12 +13,12 @@
 #include "paper_site.h"
 #include "runs.h"
 
-#define ROCKS    1300 /* more than a block */
+#define ROCKS    1300 /* more than a batch */
 #define BELTS    3
 #define CONTROLS 3
 #define ROTATION 9
 
-/* ---- a wood that grows and is cut ---- */
+/* ---- a forest that grows and is cut ---- */
 
 struct wood {
     struct paper_site site;
@@ -29,9 +29,9 @@ struct wood {
     double stay[2];
 };
 
-static struct wood wood; /* points into itself */
+static struct wood wood; /* contains pointers into itself */
 
-/* A coppice cut in year 4, a selection coppice, and one without any growth. */
+/* A coppice cut in year 4, a selection coppice, and one without growth. */
 static void init(void)
 {
     static char names[BELTS][4] = {"one", "two", "old"};
@@ -66,7 +66,7 @@ static void init(void)
     scene->options_count = 1;
 }
 
-/* Before each test. */
+/* Set-up of each test. */
 static int fresh(void **state)
 {
     (void)state;
@@ -74,7 +74,7 @@ static int fresh(void **state)
     return 0;
 }
 
-static struct ceduo_pool *pool_of(unsigned threads, const atomic_bool *cancel)
+static struct ceduo_pool *make_pool(unsigned threads, const atomic_bool *cancel)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
     def.threads = threads;
@@ -85,7 +85,7 @@ static struct ceduo_pool *pool_of(unsigned threads, const atomic_bool *cancel)
     return pool;
 }
 
-static struct ceduo_years *grown(unsigned first, unsigned last, unsigned step)
+static struct ceduo_years *grow_years(unsigned first, unsigned last, unsigned step)
 {
     struct ceduo_years *years;
     assert_int_equal(ceduo_years_create(&wood.site.scene, &wood.option,
@@ -94,7 +94,7 @@ static struct ceduo_years *grown(unsigned first, unsigned last, unsigned step)
     return years;
 }
 
-static struct ceduo_simulated bare_of(uint64_t rocks)
+static struct ceduo_simulated simulate_bare(uint64_t rocks)
 {
     LOCAL(ceduo_run, run) = run_option(&wood.site.scene, NULL, rocks, 1);
     struct ceduo_simulated bare;
@@ -102,17 +102,17 @@ static struct ceduo_simulated bare_of(uint64_t rocks)
     return bare;
 }
 
-/* Grown and flown with a pool of its own, which is gone. */
-static struct ceduo_years *flown(unsigned first, unsigned last, unsigned step, unsigned threads, uint64_t rocks)
+/* Grow and simulate with a temporary pool. */
+static struct ceduo_years *simulate_years(unsigned first, unsigned last, unsigned step, unsigned threads, uint64_t rocks)
 {
-    struct ceduo_years *years = grown(first, last, step);
-    LOCAL(ceduo_pool, pool) = pool_of(threads, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(rocks);
+    struct ceduo_years *years = grow_years(first, last, step);
+    LOCAL(ceduo_pool, pool) = make_pool(threads, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(rocks);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, rocks), CEDUO_OK);
     return years;
 }
 
-/* ---- the same bits ---- */
+/* ---- equal bits ---- */
 
 static void expect_same(const char *what, double a, double b)
 {
@@ -120,7 +120,7 @@ static void expect_same(const char *what, double a, double b)
         fail_msg("%s: %.17g is not %.17g", what, a, b);
 }
 
-/* Numbers of the same places in two structures, each the same to the bit. */
+/* Compare numbers of the same members in two structs bit by bit. */
 #define EXPECT_FIELD_BITS_IN(a, b, field) expect_same(#field, (a)->field, (b)->field);
 #define EXPECT_FIELD_BITS(both, field)    WITH_UNWRAPPED(EXPECT_FIELD_BITS_IN, UNWRAP both, field)
 #define EXPECT_BITS(a, b, ...)                                                                                                 \
@@ -178,9 +178,9 @@ static void expect_same_year(const struct ceduo_year *a, const struct ceduo_year
         expect_same_ends(&a->wooded.ends, &b->wooded.ends);
 }
 
-/* ---- beside runs of their own ---- */
+/* ---- comparison with separate runs ---- */
 
-/* The same year without any of it: stands, one run, its figures. */
+/* Simulate one year directly: stands, one run, its results. */
 static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulated *bare)
 {
     const struct ceduo_scene *scene = &wood.site.scene;
@@ -218,10 +218,10 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
         ceduo_grown_stand_release(&stands[i]);
 }
 
-TEST_WITH(years_are_runs_of_their_own, fresh, NULL)
+TEST_WITH(years_equal_separate_runs, fresh, NULL)
 {
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(ROCKS);
-    LOCAL(ceduo_years, years) = flown(0, 26, 1, 2, ROCKS);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(ROCKS);
+    LOCAL(ceduo_years, years) = simulate_years(0, 26, 1, 2, ROCKS);
     assert_int_equal(years->count, 27);
     unsigned cuts = 0;
     for (size_t i = 0; i < years->count; i++) {
@@ -229,17 +229,17 @@ TEST_WITH(years_are_runs_of_their_own, fresh, NULL)
         cuts += years->years[i].cut;
         expect_direct(&years->years[i], &bare);
     }
-    assert_int_equal(cuts, 5); /* 4, 13 and 22 of the coppice; 10 and 19 of the selection coppice, 27 years old then */
+    assert_int_equal(cuts, 5); /* 4, 13 and 22 of the coppice; 10 and 19 of the selection coppice, then 27 years old */
 }
 
 TEST_WITH(year_0_is_the_result, fresh, NULL)
 {
-    LOCAL(ceduo_pool, pool) = pool_of(1, NULL);
+    LOCAL(ceduo_pool, pool) = make_pool(1, NULL);
     LOCAL(ceduo_result, result);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, ROCKS), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&wood.site.scene, pool, &result), CEDUO_OK);
-    LOCAL(ceduo_years, years) = grown(0, 0, 1);
+    LOCAL(ceduo_years, years) = grow_years(0, 0, 1);
     assert_int_equal(ceduo_years_simulate(years, pool, &result->bare, ROCKS), CEDUO_OK);
     const struct ceduo_year *y = &years->years[0];
     for (size_t c = 0; c < CONTROLS; c++) {
@@ -248,16 +248,16 @@ TEST_WITH(year_0_is_the_result, fresh, NULL)
     }
     for (int i = 0; i < BELTS; i++)
         expect_same_stand(&y->stands[i], &result->options[0].stands[i]);
-    assert_int_equal(ceduo_pool_work(pool).runs, 2); /* bare, and this one, which was there */
+    assert_int_equal(ceduo_pool_work(pool).runs, 2); /* without forest, and the existing run */
 }
 
 TEST_WITH(steps_and_stretches_pick_from_all, fresh, NULL)
 {
-    LOCAL(ceduo_years, all) = flown(0, 20, 1, 1, 300);
+    LOCAL(ceduo_years, all) = simulate_years(0, 20, 1, 1, 300);
     static const unsigned stretches[][3] = {{3, 3, 1}, {2, 20, 6}, {0, 19, 7}, {5, 6, 50}};
     for (size_t k = 0; k < sizeof stretches / sizeof stretches[0]; k++) {
         unsigned first = stretches[k][0], last = stretches[k][1], step = stretches[k][2];
-        LOCAL(ceduo_years, some) = flown(first, last, step, 1, 300);
+        LOCAL(ceduo_years, some) = simulate_years(first, last, step, 1, 300);
         assert_int_equal(some->count, (last - first) / step + 1);
         for (size_t i = 0; i < some->count; i++) {
             assert_int_equal(some->years[i].year, first + i * step);
@@ -268,12 +268,12 @@ TEST_WITH(steps_and_stretches_pick_from_all, fresh, NULL)
 
 TEST_WITH(threads_and_steps_change_nothing, fresh, NULL)
 {
-    LOCAL(ceduo_years, one) = flown(0, 5, 1, 1, 3000);
-    LOCAL(ceduo_years, two) = flown(0, 5, 1, 2, 3000);
-    LOCAL(ceduo_years, steps) = grown(0, 5, 1);
-    LOCAL(ceduo_pool, pool) = pool_of(2, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(3000);
-    static const uint64_t rocks[] = {1, 1024, 1500, 3000, 2000}; /* never shorter again */
+    LOCAL(ceduo_years, one) = simulate_years(0, 5, 1, 1, 3000);
+    LOCAL(ceduo_years, two) = simulate_years(0, 5, 1, 2, 3000);
+    LOCAL(ceduo_years, steps) = grow_years(0, 5, 1);
+    LOCAL(ceduo_pool, pool) = make_pool(2, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(3000);
+    static const uint64_t rocks[] = {1, 1024, 1500, 3000, 2000}; /* runs never shrink */
     for (size_t i = 0; i < sizeof rocks / sizeof rocks[0]; i++)
         assert_int_equal(ceduo_years_simulate(steps, pool, &bare, rocks[i]), CEDUO_OK);
     for (size_t i = 0; i < one->count; i++) {
@@ -282,13 +282,13 @@ TEST_WITH(threads_and_steps_change_nothing, fresh, NULL)
     }
 }
 
-TEST_WITH(a_wood_is_flown_once, fresh, NULL)
+TEST_WITH(a_forest_is_simulated_once, fresh, NULL)
 {
     wood.belts[1].stand.cutting.cohorts = 1;
     wood.belts[1].cut_year = 7;
-    LOCAL(ceduo_years, years) = grown(0, 40, 1);
-    LOCAL(ceduo_pool, pool) = pool_of(2, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(100);
+    LOCAL(ceduo_years, years) = grow_years(0, 40, 1);
+    LOCAL(ceduo_pool, pool) = make_pool(2, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(100);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, 100), CEDUO_OK);
     struct ceduo_work work = ceduo_pool_work(pool);
     ROWS(EXPECT, (work.runs, ==, 7 + ROTATION), (work.runs + work.reused, ==, 41), (work.rocks, ==, 100 * work.runs));
@@ -300,24 +300,24 @@ TEST_WITH(a_wood_is_flown_once, fresh, NULL)
 
 #define SUMMED 400 /* rocks */
 
-/* Sums over the years at each control, from trajectories followed one by one. Of the share that is judged at the last control the
- * error is that of each rock's own mean; of the others as if all years went together. */
+/* Sums over the years at each control, from single trajectories. The judged share at the last control has the error of each
+ * rock's own mean; the other figures have the error of all years as one. */
 struct by_hand {
     double reach, exceed, energy, reach_se, exceed_se, energy_se, worst;
     unsigned worst_year;
 };
 
-static double energy_of(const struct ceduo_rock *rock, const struct ceduo_crossing *at)
+static double read_energy(const struct ceduo_rock *rock, const struct ceduo_crossing *at)
 {
     return .5 * rock->mass * (at->vx * at->vx + at->vz * at->vz) + .5 * rock->moment * at->spin * at->spin;
 }
 
-static double error_of(double sum, double squares)
+static double read_error(double sum, double squares)
 {
     return sqrt((squares - sum * sum / SUMMED) / (SUMMED - 1) / SUMMED);
 }
 
-/* One year at control c: `own` adds up each rock's share. */
+/* Add one year at control c; `own` sums each rock's share. */
 static void add_year(struct by_hand *to, const struct ceduo_years *years, size_t i, size_t c, double own[SUMMED])
 {
     const struct ceduo_scene *scene = &years->scene;
@@ -328,7 +328,7 @@ static void add_year(struct by_hand *to, const struct ceduo_years *years, size_t
         struct ceduo_crossing at[CONTROLS];
         struct ceduo_trajectory way;
         assert_int_equal(ceduo_tracer_run(f, r, NULL, &way, at), CEDUO_OK);
-        double energy = at[c].reached ? energy_of(&way.rock, &at[c]) : 0;
+        double energy = at[c].reached ? read_energy(&way.rock, &at[c]) : 0;
         bool above = at[c].reached && energy > accepted;
         reach += at[c].reached;
         exceed += above;
@@ -343,7 +343,7 @@ static void add_year(struct by_hand *to, const struct ceduo_years *years, size_t
     to->energy += sum / SUMMED / n;
     to->reach_se += sqrt(reach * (1 - reach) / SUMMED) / n;
     to->exceed_se += isnan(accepted) ? NAN : sqrt(exceed * (1 - exceed) / SUMMED) / n;
-    to->energy_se += error_of(sum, squares) / n;
+    to->energy_se += read_error(sum, squares) / n;
     if (share > to->worst) {
         to->worst = share;
         to->worst_year = years->years[i].year;
@@ -361,7 +361,7 @@ static struct by_hand sum_by_hand(const struct ceduo_years *years, size_t c)
         squares += own[r] * own[r];
     }
     if (c == years->last_control)
-        *(isnan(h.exceed) ? &h.reach_se : &h.exceed_se) = error_of(sum, squares);
+        *(isnan(h.exceed) ? &h.reach_se : &h.exceed_se) = read_error(sum, squares);
     return h;
 }
 
@@ -396,14 +396,14 @@ TEST(sums_over_the_years)
     for (int rate = 0; rate < 2; rate++) {
         init();
         wood.site.scene.rocks_per_year = rate ? 2.5 : NAN;
-        LOCAL(ceduo_years, years) = flown(0, 22, 2, 2, SUMMED);
+        LOCAL(ceduo_years, years) = simulate_years(0, 22, 2, 2, SUMMED);
         for (size_t c = 0; c < CONTROLS; c++)
             expect_sum(years, c);
-        assert_true(isnan(ceduo_years_summarize(years, 0).exceed.mean)); /* it does not say what it bears */
+        assert_true(isnan(ceduo_years_summarize(years, 0).exceed.mean)); /* no accepted energy */
     }
 }
 
-/* Of blocks of all sizes the shares of years are weighed; the error is what a regression on the weights leaves. */
+/* For blocks of all sizes the shares of years are weighted; the error is the residual of a regression on the weights. */
 TEST(years_of_blocks)
 {
     enum { FEW = 300 };
@@ -416,7 +416,7 @@ TEST(years_of_blocks)
     wood.site.scene.blocks_count = 1;
     for (int i = 0; i < 2; i++) {
         wood.belts[1].stand.stools_per_ha = i == 0 ? 2500 : 600;
-        years[i] = flown(3, 7, 2, 1, FEW);
+        years[i] = simulate_years(3, 7, 2, 1, FEW);
         for (size_t r = 0; r < FEW; r++)
             marks[i][r] = 0;
         for (size_t y = 0; y < years[i]->count; y++) {
@@ -428,7 +428,7 @@ TEST(years_of_blocks)
             }
         }
     }
-    for (int of = 0; of < 3; of++) { /* one, the other, their difference */
+    for (int of = 0; of < 3; of++) { /* each of the two, and their difference */
         double w1 = 0, x1 = 0, ww = 0, wx = 0, xx = 0, x[FEW];
         for (size_t r = 0; r < FEW; r++) {
             x[r] = weights[r] * (of < 2 ? marks[of][r] : marks[0][r] - marks[1][r]);
@@ -453,30 +453,30 @@ TEST(years_of_blocks)
 TEST_WITH(metres_felled, fresh, NULL)
 {
     double whole = 0;
-    for (int i = 0; i < BELTS; i++) { /* all three alike, each in a year of its own */
+    for (int i = 0; i < BELTS; i++) { /* all three equal, each in another year */
         wood.belts[i].stand = wood.belts[0].stand;
         wood.belts[i].cut_year = 4 - 7 * i;
         whole += wood.belts[i].to - wood.belts[i].from;
     }
     for (unsigned first = 9; first < 20; first++) {
-        LOCAL(ceduo_years, years) = grown(first, first + 3 * ROTATION - 1, 1);
+        LOCAL(ceduo_years, years) = grow_years(first, first + 3 * ROTATION - 1, 1);
         EXPECT(ceduo_years_felled(years), ==, 3 * whole);
         double by_hand = 0;
         for (size_t i = 0; i < years->count; i++)
             for (int k = 0; k < BELTS; k++)
                 by_hand += years->years[i].option.belts[k].stand.stools_per_ha == 0 ? wood.belts[k].to - wood.belts[k].from : 0;
-        EXPECT(by_hand, ==, 3 * whole); /* just cut no stool stands */
+        EXPECT(by_hand, ==, 3 * whole); /* no stools stand just after the cut */
     }
-    LOCAL(ceduo_years, years) = grown(5, 6, 1); /* which is freed without having been simulated */
+    LOCAL(ceduo_years, years) = grow_years(5, 6, 1);                              /* freed without a simulation */
     EXPECT(ceduo_years_felled(years), ==, wood.belts[1].to - wood.belts[1].from); /* -3: 6 */
 }
 
 TEST_WITH(by_the_index_alone, fresh, NULL)
 {
     wood.site.scene.simulation.contact_model = CEDUO_INDEX;
-    LOCAL(ceduo_years, years) = grown(0, 15, 1);
-    LOCAL(ceduo_pool, pool) = pool_of(1, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(200);
+    LOCAL(ceduo_years, years) = grow_years(0, 15, 1);
+    LOCAL(ceduo_pool, pool) = make_pool(1, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(200);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, 200), CEDUO_OK);
     assert_int_equal(ceduo_pool_work(pool).runs, 0);
     double worst = 0;
@@ -500,8 +500,8 @@ TEST_WITH(by_the_index_alone, fresh, NULL)
 TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
 {
     wood.option.belts_count = 0;
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(500);
-    LOCAL(ceduo_years, years) = flown(0, 3, 1, 1, 500);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(500);
+    LOCAL(ceduo_years, years) = simulate_years(0, 3, 1, 1, 500);
     for (size_t i = 0; i < years->count; i++) {
         assert_false(years->years[i].cut);
         for (size_t c = 0; c < CONTROLS; c++) {
@@ -514,16 +514,16 @@ TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
     ceduo_years_free(NULL);
 }
 
-TEST_WITH(nothing_is_hit_in_a_bare_year, fresh, NULL)
+TEST_WITH(no_stem_is_hit_in_a_year_without_stems, fresh, NULL)
 {
     wood.option.belts_count = 1;
     wood.belts[0].stand.cutting.retained_count = 0;
-    LOCAL(ceduo_years, years) = flown(3, 5, 1, 1, 200);
+    LOCAL(ceduo_years, years) = simulate_years(3, 5, 1, 1, 200);
     const struct ceduo_year *y = &years->years[1];
     bool cut = y->cut && y->stands[0].bare && y->wooded.arrivals[1].reached > 0;
     double contacts = y->wooded.arrivals[1].contacts.mean;
     assert_true(cut);
-    EXPECT(contacts, ==, 0); /* known, not unknown */
+    EXPECT(contacts, ==, 0); /* exactly 0, not unknown */
 }
 
 static void expect_window(enum ceduo_window_kind kind, unsigned first, unsigned last)
@@ -532,20 +532,20 @@ static void expect_window(enum ceduo_window_kind kind, unsigned first, unsigned 
     EXPECT_IS(w, (kind, kind), (first, first), (last, last), (step, 1));
 }
 
-/* One whole rotation from the year on in which all belts have been cut; the scene may name others. */
+/* One whole rotation after all belts have been cut; the scene may give others. */
 TEST_WITH(whole_rotations, fresh, NULL)
 {
     expect_window(CEDUO_WINDOW_ROTATION, 10, 10 + ROTATION - 1); /* the selection coppice's first cut: 10 */
     wood.belts[0].cut_year = 40;
     expect_window(CEDUO_WINDOW_ROTATION, 40, 40 + ROTATION - 1);
-    for (int i = 0; i < 2; i++) { /* together they begin every 899 years: then the longer one counts */
+    for (int i = 0; i < 2; i++) { /* they start together every 899 years: then the longer one counts */
         wood.belts[i].stand.cutting.rotation = 29;
         wood.belts[1 - i].stand.cutting.rotation = 31;
         struct ceduo_window w = ceduo_window_compute(&wood.option);
         EXPECT(w.last - w.first, ==, 31 - 1);
     }
     wood.belts[1].stand.cutting.rotation = ROTATION;
-    wood.belts[0].stand.cutting.rotation = 2 * ROTATION; /* two rotations that begin together every 2 ROTATION years */
+    wood.belts[0].stand.cutting.rotation = 2 * ROTATION; /* two rotations that start together every 2 ROTATION years */
     expect_window(CEDUO_WINDOW_ROTATION, 40, 40 + 2 * ROTATION - 1);
     wood.site.scene.year_first = 3;
     wood.site.scene.year_last = NAN;
@@ -554,14 +554,14 @@ TEST_WITH(whole_rotations, fresh, NULL)
     wood.site.scene.year_last = 5;
     w = ceduo_scene_window(&wood.site.scene);
     EXPECT(w.last, ==, 5);
-    wood.site.scene.year_last = 2; /* before the first: that year alone */
+    wood.site.scene.year_last = 2; /* before the first cut: only that year */
     w = ceduo_scene_window(&wood.site.scene);
     EXPECT_IS(w, (first, 3), (last, 3));
     wood.site.scene.year_last = 3 + CEDUO_YEARS_MAX - 1;
     EXPECT(ceduo_scene_window(&wood.site.scene).step, ==, 1);
     wood.site.scene.year_last = 48700;
     w = ceduo_scene_window(&wood.site.scene);
-    EXPECT(w.step, ==, 49); /* 48 698 years, 1000 at the most */
+    EXPECT(w.step, ==, 49); /* 48 698 years, at most 1000 */
     EXPECT(w.last, ==, 48700);
     wood.belts[0].cut_year = wood.belts[1].cut_year = INFINITY; /* never */
     expect_window(CEDUO_WINDOW_AHEAD, 1, CEDUO_YEARS_AHEAD_MIN);
@@ -577,33 +577,33 @@ static void expect_ahead(enum ceduo_window_kind kind, unsigned first, unsigned l
     EXPECT_IS(w, (kind, kind), (first, first), (last, last), (step, 1));
 }
 
-/* One window for all options: the longest rotation, at least 20 and at most 60 years, from year 1 on. */
+/* One window for all options: the longest rotation, 20 to 60 years, from year 1 on. */
 TEST_WITH(one_window_for_all_options, fresh, NULL)
 {
     struct ceduo_option two[2] = {wood.option, wood.option};
-    struct ceduo_belt other = wood.belts[0];
+    struct ceduo_belt second = wood.belts[0];
     wood.site.scene.options = two;
     wood.site.scene.options_count = 2;
     wood.site.scene.year_first = wood.site.scene.year_last = NAN;
-    two[1].belts = &other;
+    two[1].belts = &second;
     two[1].belts_count = 1;
     for (int i = 0; i < 2; i++)
         wood.belts[i].stand.cutting.rotation = 13;
-    other.stand.cutting.rotation = 15;
+    second.stand.cutting.rotation = 15;
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
-    other.stand.cutting.rotation = 40;
+    second.stand.cutting.rotation = 40;
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 40);
-    other.stand.cutting.rotation = 90;
+    second.stand.cutting.rotation = 90;
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 60);
-    other.cut_year = INFINITY; /* never cut: its rotation does not count */
+    second.cut_year = INFINITY; /* never cut: the rotation does not count */
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
-    other.stand.growth = (struct ceduo_growth){0}; /* as long as anything grows */
+    second.stand.growth = (struct ceduo_growth){0}; /* as long as anything grows */
     expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
     two[0] = two[1];
     expect_ahead(CEDUO_WINDOW_CONSTANT, 0, 0);
 }
 
-/* ---- ends before its end ---- */
+/* ---- early end ---- */
 
 struct stop {
     atomic_bool cancel;
@@ -618,10 +618,10 @@ static void count_run(void *context, uint64_t rocks)
         atomic_store(&stop->cancel, true);
 }
 
-TEST_WITH(it_can_be_cancelled_and_goes_on, fresh, NULL)
+TEST_WITH(a_cancelled_simulation_can_continue, fresh, NULL)
 {
-    LOCAL(ceduo_years, whole) = flown(0, 8, 1, 2, ROCKS);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(ROCKS);
+    LOCAL(ceduo_years, whole) = simulate_years(0, 8, 1, 2, ROCKS);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(ROCKS);
     for (unsigned after = 0; after < 10; after += 3) {
         struct stop stop = {.cancel = after == 0, .after = after};
         struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
@@ -632,7 +632,7 @@ TEST_WITH(it_can_be_cancelled_and_goes_on, fresh, NULL)
         def.context = &stop;
         LOCAL(ceduo_pool, pool);
         assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
-        LOCAL(ceduo_years, years) = grown(0, 8, 1);
+        LOCAL(ceduo_years, years) = grow_years(0, 8, 1);
         enum ceduo_status status = ceduo_years_simulate(years, pool, &bare, ROCKS);
         assert_int_equal(status, after < 9 ? CEDUO_CANCELLED : CEDUO_OK);
         for (size_t i = 0; i < years->count; i++) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the tests of the terminal program share: scripts played without a terminal, the screens that they dump."""
+"""Helpers of the tests of the terminal program: scripts without a terminal, and the screens that they dump."""
 import os
 import re
 import subprocess
@@ -13,8 +13,8 @@ from harness import CEDUO, DONE, PATIENCE, ROOT, Failure, Folder, Result, enviro
 
 VIEWS = ["slope", "stand", "rock", "results", "compare", "rotation"]
 
-# Its rocks all go the same way and meet no stem: the figures are as fine as they will be at once. They roll: at 80 m they have
-# m g (80 - 15 - 0.65 * 60 - 0.7 * 20 m) = 20 kJ of the 50 accepted, at the track m g (80 - 30 - 0.65 * 60 m) = 18 kJ of 20.
+# All rocks move equally and meet no stem: the first figures are final. They roll: at 80 m they have
+# m g (80 - 15 - 0.65 * 60 - 0.7 * 20 m) = 20 kJ of the accepted 50, at the track m g (80 - 30 - 0.65 * 60 m) = 18 kJ of 20.
 FAST = """\
 # kept: the first line
 ceduo: scene/1
@@ -55,7 +55,7 @@ forest:
       energy: {model: brauner, u_J_m3: 100000, offset: whole}
 simulation: {rocks: 1000, contact_model: index}
 """
-# The same with three ways to treat it.
+# the same with three treatments
 OPTIONS = FAST[:FAST.index("forest:")] + """\
 options:
   - name: thick
@@ -77,12 +77,12 @@ simulation: {rocks: 1000, contact_model: index}
 """
 
 
-# With this friction about half of the rocks of 1 m have more than 250 kJ at 80 m, and about 130 of 1000 through the forest.
+# With this friction about half of the rocks of 1 m exceed 250 kJ at 80 m, and about 130 in 1000 with forest.
 ROUGH = "roughness_rad: 0.3, friction: 0.47"
 
 
 def in_the_wood(text):
-    """The same, with rocks of many ways that meet the stems of the wood; of those some stop."""
+    """Return the scene with varying rocks that meet the stems of the forest; some stop."""
     for old, new in (("title: fast", "title: wood"), ("diameter_m: 0.5}", "diameter_m: 1}"), ("vx_m_s: 1", "vx_m_s: 3"),
                      ("rn: 0.3, rt: 0.98, roughness_rad: 0, friction: 0.65", f"rn: 0.35, rt: 0.8, {ROUGH}"),
                      ("rn: 0.25, rt: 0.97, roughness_rad: 0, friction: 0.7", f"rn: 0.35, rt: 0.8, {ROUGH}"),
@@ -94,7 +94,7 @@ def in_the_wood(text):
 
 
 def in_the_index(text):
-    """The same by the index alone."""
+    """Return the scene by the index alone."""
     return text.replace("simulation: {", "simulation: {contact_model: index, ")
 
 
@@ -113,7 +113,7 @@ class Screen:
 
     @property
     def title(self):
-        """The names of the views, and the scene's title beside them or above the figures."""
+        """Return the names of the views, and the scene's title next to them or above the figures."""
         beside = re.search(r" 8 .*\S {3,}\S", self.lines[0])
         return self.lines[0] if beside else f"{self.lines[0]}\n{self.cut(self.width - self.side + 1, self.width)[0]}"
 
@@ -123,12 +123,12 @@ class Screen:
 
     @property
     def note(self):
-        """What explains the field, or answers the last key."""
+        """Return the explanation of the field, or the answer to the last key."""
         return " ".join(f"{self.lines[-3]} {self.lines[-2]}".split(" ")).strip()
 
     @property
     def popup(self):
-        """What stands in the box over the view, its lines joined."""
+        """Return the text of the popup, its lines joined."""
         inside = [m.group(1).strip() for m in (re.search(r"[│|] (.*) [│|]", line) for line in self.lines[1:-1]) if m]
         return re.sub(r" +", " ", " ".join(inside))
 
@@ -141,33 +141,33 @@ class Screen:
 
     @property
     def body(self):
-        """The view's own part."""
+        """Return the view's own part."""
         return "\n".join(self.cut(0, self.width - self.side - 2))
 
     @property
     def now(self):
-        """The column on the right, without the mark of unsaved work before the title."""
+        """Return the column on the right, without the mark of unsaved work before the title."""
         return "\n".join(self.cut(self.width - self.side + 1, self.width)).removeprefix("* ")
 
     def figure(self, pattern):
-        """The number that follows in the column on the right."""
+        """Return the next number in the column on the right."""
         found = re.search(pattern + r"\s*([-\d.]+)", self.now)
         expect(found, f"no '{pattern}' with a number in the column on the right:", self.now)
         return float(found.group(1).rstrip("."))
 
     def pair(self, name):
-        """What stands in the column on the right through the wood and without forest: numbers, None for a dash."""
+        """Return the column's numbers with and without forest, None for a dash."""
         found = re.search(rf"^ *{re.escape(name)} +(\S+|\d+ \(\d+[–-]\d+\)) +(\S+)$", self.now, re.M)
         expect(found, f"no '{name}' with two figures in the column on the right:", self.now)
         numbers = [re.match(r"[\d.]+", word) for word in found.groups()]
         return tuple(float(n.group()) if n else None for n in numbers)
 
     def lights(self):
-        """The tests in the column on the right, {'Contact': 'passes', …}: the sign and the comparison must agree."""
+        """Return the tests in the column on the right, {'Contact': 'passes', …}; sign and comparison must agree."""
         return {name: today for name, (today, _) in self.lights_ahead().items()}
 
     def lights_ahead(self):
-        """The same with the second sign, of the worst year ahead; None without one."""
+        """Return the same with the second sign, of the worst coming year; None if missing."""
         found, words_of = {}, {"✔": "passes", "+": "passes", "✘": "FAILS", "x": "FAILS", "?": "unknown", "": None}
         for name, pattern in (("Contact", r"^(?:ADC|gap) m"), ("Free run", r"^free run %"), ("Energy", r"^energy %")):
             match = re.search(pattern + r" +(\S+) +(?:(<|≤|<=) ([\d.]+) )?([✔✘+x?])([✔✘+x?]?)$", self.now, re.M)
@@ -181,7 +181,7 @@ class Screen:
         return found
 
     def has(self, *parts):
-        """Each part is there, in whatever layout: runs of blanks are one."""
+        """Expect each part, in any layout: runs of blanks count as one."""
         flat = re.sub(r"[ \n]+", " ", self.text)
         for part in parts:
             expect(part in flat or part in self.text, f"{part!r} is missing in the", self)
@@ -193,14 +193,14 @@ class Screen:
         return self
 
     def row(self, pattern):
-        """The body's first line that matches, as words."""
+        """Return the body's first matching line, as words."""
         for line in self.body.split("\n"):
             if re.search(pattern, line):
                 return line.split()
         raise Failure(f"no line like {pattern!r} in the", self)
 
     def whole(self):
-        """As many lines as the screen has, none wider than it."""
+        """Expect the screen's number of lines, none too wide."""
         expect(len(self.lines) == self.height and self.text.endswith("\n"),
                f"{len(self.lines)} lines, {self.height} wanted", self)
         for line in self.lines:
@@ -209,11 +209,12 @@ class Screen:
         return self
 
 
-ROCKS = 1024  # of each forest and year, ten times fewer than the program takes at least: most tests read no figure
+ROCKS = 1024  # per forest and year, ten times fewer than the program's minimum: most tests read no figure
 
 
 def home(folder, rocks=ROCKS):
-    """An environment that keeps the program's files in a folder; without a terminal's name. rocks=None: as many as ever."""
+    """Return an environment that keeps the program's files in a folder; without a terminal's name. rocks=None: the default
+    number."""
     at = str(folder)
     return environment(CEDUO_ROCKS=rocks and str(rocks), HOME=at,
                        XDG_STATE_HOME=at + "/state", XDG_DATA_HOME=at + "/data", XDG_CONFIG_HOME=at + "/config",
@@ -221,7 +222,7 @@ def home(folder, rocks=ROCKS):
 
 
 def run_script(folder, script, *arguments, name="play.txt", rocks=ROCKS):
-    """Plays a script with no terminal at all; the program ends by itself, whatever its status."""
+    """Play a script without a terminal; the program ends, with any status."""
     (folder / name).write_text(script)
     command = [CEDUO, "--script", name, *map(str, arguments)]
     start = time.monotonic()
@@ -238,8 +239,8 @@ def run_script(folder, script, *arguments, name="play.txt", rocks=ROCKS):
 
 
 def play(folder, script, *arguments, charset="braille", rocks=ROCKS):
-    """The screens that a script dumps: a line 'dump' alone takes one. Also: 'find WORD' searches, 'set VALUE' types
-    into the field, 'clear' takes the message away."""
+    """Return the screens that a script dumps: a line 'dump' saves one. Also: 'find WORD' searches, 'set VALUE' types into the
+    field, 'clear' dismisses the message."""
     width, height, sizes, lines = 80, 24, [], []
     for line in script.strip().split("\n"):
         line = line.strip()
@@ -269,7 +270,7 @@ def play(folder, script, *arguments, charset="braille", rocks=ROCKS):
 
 
 class Place(Folder):
-    """A folder with the fast scene in it."""
+    """A folder with the fast scene."""
 
     def __enter__(self):
         super().__enter__()
@@ -287,13 +288,13 @@ class Place(Folder):
 
 
 def fast(script, scene="fast.yaml", **options):
-    """The screens of a script on the fast scene in a folder of its own."""
+    """Return the screens of a script on the fast scene in a separate folder."""
     with Place() as place:
         return place.play(script, scene, **options)
 
 
 def actions():
-    """The program's one table of keys: (name, first word, second word, 0…2 in the bar, what it does)."""
+    """Return the program's table of keys: (name, first word, second word, 0…2 in the bar, action)."""
     source = (ROOT / "src/tui/keys.h").read_text()
     source = re.sub(r'^ *V\((\w+), \w+, ([^,]+), (".*?"), NP_\("view", (".*?")\)\)', r'    X(VIEW_\1, \2, \3, K_NONE, "", 0, N_(\4), VIEW)', source, flags=re.M)
     rows = re.findall(r'X\((\w+), (?:\',\'|[^,]+), "(.*?)", [^,]+, "(.*?)", (\d), N_\("(.*?)"\), ', source)
@@ -302,7 +303,7 @@ def actions():
 
 
 def check_good(folder, name):
-    """The program itself finds nothing wrong with a scene."""
+    """Expect the program to find a scene valid."""
     done = subprocess.run([CEDUO, "--check", name], cwd=folder, env=home(folder), stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE, check=False)
     expect(done.returncode == DONE, f"{name}: ceduo --check says", done.stdout.decode(), "of",

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow
-"""The terminal program's forms where one value excludes another: the rock's shape and sizes, mass or density, roughness."""
+"""Forms of the terminal program with exclusive values: the rock's shape and sizes, mass or density, roughness."""
 import re
 import sys
 from math import pi
@@ -19,7 +19,7 @@ def scene_with(rock):
 
 
 def edited(rock, keys):
-    """The screens before, after and once undone, what was said, and the rock's line of the saved scene."""
+    """Return the screens before, after and after undo, the message, and the rock's line of the saved scene."""
     with Place() as place:
         place.write("rock.yaml", scene_with(rock))
         before, said, after, undone = place.play(f"key 3\nwait idle\ndump\n{keys}\ndump\nwait idle\nkey s\ndump\n"
@@ -29,7 +29,7 @@ def edited(rock, keys):
 
 
 def said_by(rock, keys):
-    """What is said to the keys, before anything else."""
+    """Return the message after the keys."""
     with Place() as place:
         place.write("rock.yaml", scene_with(rock))
         return place.play(f"key 3\nwait idle\n{keys}\ndump", "rock.yaml")[0]
@@ -44,7 +44,7 @@ def mass_of(screen):
 
 
 def test_every_shape():
-    """From each shape to each other: its own sizes filled in, of the same volume and mass, said, and one step to undo."""
+    """From each shape to each other: its sizes are filled in with equal volume and mass, with a message, in one undo step."""
     rocks = {"sphere": "{shape: sphere, diameter_m: 0.8}", "cylinder": "{shape: cylinder, diameter_m: 0.56, height_m: 0.8}",
              "ellipsoid": "{shape: ellipsoid, axes_m: [0.5, 0.7, 0.9]}", "block": "{shape: block, axes_m: [0.5, 0.7, 0.9]}"}
     wanted = {"sphere": {"diameter_m"}, "cylinder": {"diameter_m", "height_m"}, "ellipsoid": {"axes_m"}, "block": {"axes_m"}}
@@ -58,7 +58,7 @@ def test_every_shape():
             expect_equal(undone.row("^shape")[-1], old, "after u")
             expect_equal(undone.now, before.now, f"figures after u, from {new} back to {old}")
             if {old, new} == {"ellipsoid", "block"}:
-                continue  # the same sizes serve both
+                continue  # equal sizes fit both
             expect_near(mass_of(after), mass_of(before), 0.02 * mass_of(before), f"{old} to {new}: mass")
             expect_in("set for the same volume: ", said, f"{old} to {new}")
             for name in wanted[new]:
@@ -66,7 +66,7 @@ def test_every_shape():
 
 
 def test_shape_figures():
-    """The sphere of a cylinder's volume to three digits; a cylinder as wide as high from a sphere."""
+    """The sphere of a cylinder's volume to three digits; from a sphere a cylinder as wide as high."""
     screen = said_by("{shape: cylinder, diameter_m: 0.56, height_m: 0.80}", choose("sphere"))
     diameter = (6 / pi * pi / 4 * 0.56**2 * 0.8) ** (1 / 3)
     expect_equal(screen.note, f"set for the same volume: diameter {diameter:.3g} m; removed: height")
@@ -96,7 +96,7 @@ def test_shape_mass():
 
 
 def test_sphere_sizes():
-    """A sphere's diameter, volume or mass: the one that is typed replaces the others, with a word, in one step."""
+    """A sphere's diameter, volume or mass: the typed one replaces the others, with a message, in one step."""
     for rock, name, value in (("{shape: sphere, diameter_m: 0.8}", "volume_m3", "0.5"),
                               ("{shape: sphere, diameter_m: 0.8}", "mass_kg", "300"),
                               ("{volume_m3: 0.5}", "diameter_m", "0.7"), ("{mass_kg: 300}", "volume_m3", "0.2")):
@@ -110,7 +110,7 @@ def test_sphere_sizes():
 
 
 def test_sphere_refused():
-    """A size that is refused leaves the other where it is."""
+    """A refused size keeps the other one."""
     with Place() as place:
         refused, after = place.play("key 3\nfind rock.volume_m3\nset -1\ndump\nkey Esc\nclear\ndump")
     expect_in("-1 is below 0 m³", refused.note)
@@ -119,7 +119,7 @@ def test_sphere_refused():
 
 
 def test_mass_or_density():
-    """Of other shapes the mass replaces the density, and the density the mass."""
+    """For other shapes the mass replaces the density, and the density the mass."""
     rock = "{shape: cylinder, diameter_m: 0.5, height_m: 0.5, density_kg_m3: 2600}"
     keys = "find rock.mass_kg\nset 300"
     _, after, undone, said, line = edited(rock, keys)
@@ -132,7 +132,7 @@ def test_mass_or_density():
 
 
 def test_roughness():
-    """A roughness in m replaces one in rad where the slope has both kinds."""
+    """A roughness in m replaces one in rad if the slope has both kinds."""
     with Place() as place:
         text = FAST.replace("rt: 0.98, roughness_rad: 0,", "rt: 0.98, roughness_m: 0,")
         place.write("mixed.yaml", text)
@@ -144,7 +144,7 @@ def test_roughness():
 
 
 def test_command_line():
-    """-s of a shape that the rock's sizes do not fit names the way that works, and it works."""
+    """-s of a shape that does not fit the rock's sizes names a working remedy."""
     done = ceduo("--check", "-s", "rock.shape=sphere", "-s", "rock.diameter_m=1", "paper-site")
     found = re.search(r"-s '(rock=\{shape: sphere, .*?\})'", done.err)
     expect(done.status != 0 and found, done)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""View 5: an option is called the best only where more than chance tells it apart."""
+"""View 5: an option is called the best only if the difference is more than chance."""
 import math
 import re
 import sys
@@ -21,7 +21,7 @@ OPTION = """\
 
 
 def verdict(per_ha):
-    """Two woods of 100 and of so many trees a hectare: what is said of today, how far their shares are apart, with what error."""
+    """Two forests of 100 and n trees per hectare: today's sentence, the difference of their shares, and its error."""
     options = OPTION.format(name="one", per_ha=100) + OPTION.format(name="other", per_ha=per_ha)
     with Place() as place:
         place.write("two.yaml", HEAD + "options:\n" + options + TAIL)
@@ -34,7 +34,7 @@ def verdict(per_ha):
 
 
 def test_clear_differences():
-    """An option is called the best only where it is more than three standard errors before the other"""
+    """An option is called the best only if it leads by more than three standard errors"""
     seen = set()
     for per_ha in (100.05, 100.1, 100.2, 130, 60):
         found, mean, se = verdict(per_ha)
@@ -46,7 +46,7 @@ def test_clear_differences():
 
 
 def expect_same_error(narrow, wide, arrivals):
-    """A column without room for the interval shows half of it, by the weights of the blocks."""
+    """A column too narrow for the interval shows half of it, with the weights of the blocks."""
     for row, key in (("arrive", "reach"), ("above 50 kJ", "exceed")):
         value, lo, hi = (1000 * arrivals[f"{key}_{k}"] for k in ("probability", "lo", "hi"))
         expect(re.search(rf"^ *{row} +{value:.0f}±{math.ceil((hi - lo) / 2)} ", narrow.now, re.M), row, lo, hi, narrow)
@@ -54,7 +54,7 @@ def expect_same_error(narrow, wide, arrivals):
 
 
 def test_blocks():
-    """Where blocks of all sizes come down column and view 5 say how often a dangerous one does, and no mean of survivors"""
+    """With blocks of all sizes column and view 5 print the frequency of dangerous ones, and no mean of survivors"""
     with Place() as place:
         screen, wide, narrow, over = place.play(
             "resize 130 40\nkey 5\nwait idle\ndump\nresize 200 50\ndump\nresize 80 24\ndump\nresize 200 50\nkey 6\ndump", "blocks-above-the-road")
@@ -80,7 +80,7 @@ def test_blocks():
 
 
 def test_wood_felled():
-    """On 80 columns the worst year and the wood felled keep their place beside the mean over the years and its range"""
+    """On 80 columns the worst year and the felled volume stay next to the mean over the years and its range"""
     with Place() as place:
         screen = place.play("key 7\nwait idle\nkey 5\nwait idle\ndump", "road-below")[0].whole()
     expect(re.search(r"^option +today +mean +range +worst +fail m³/y$", screen.body, re.M), screen)
@@ -88,7 +88,7 @@ def test_wood_felled():
 
 
 def test_copies():
-    """Of copies none is the best, and they are said to be equal; while options have different numbers of rocks none is"""
+    """Among copies none is the best, and they are called equal; options with different numbers of rocks have no best"""
     with Place() as place:
         place.write("two.yaml", HEAD + "options:\n" + OPTION.format(name="one", per_ha=100) + TAIL)
         before, after = place.play("resize 120 40\nkey 5\nwait idle\nkey y\ndump\nwait idle\ndump", "two.yaml", charset="ascii")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow threads
-"""Live edits of fields and lists in the terminal program: what each does to the scene, to the figures and to the file."""
+"""Live edits of fields and lists in the terminal program: effects on the scene, the figures and the file."""
 import math
 import re
 import sys
@@ -18,14 +18,14 @@ FIGURE_NAMES = ("arrive", "above 250 kJ", "mean kJ", "95 % below kJ")
 
 
 def index_of(screen):
-    """What the index takes and leaves, of the column on the right."""
+    """Return the index's energy taken and left, from the column on the right."""
     found = re.search(r"^taken kJ +([\d.]+)\nleft kJ +([\d.]+)$", screen.now, re.M)
     expect(found, "no index in the column on the right:", screen.now)
     return float(found.group(1)), float(found.group(2))
 
 
 def test_stand_edit():
-    """A change of the stand changes ADC, lights, index and what comes through the wood at once, nothing without forest."""
+    """A change of the stand changes ADC, lights, index and arrivals with forest at once, nothing without forest."""
     script = """key 2
         wait idle
         dump
@@ -76,7 +76,7 @@ def test_stand_edit():
 
 
 def test_rock_edit():
-    """A change of rock or ground changes what passes and its energy, with and without forest."""
+    """A change of rock or ground changes arrivals and energy, with and without forest."""
     script = """key 3
         wait idle
         dump
@@ -109,7 +109,7 @@ def test_rock_edit():
 
 
 def test_contact_model():
-    """contact_model edited to index and back: the column on the right, the lights, views 3 and 5 follow, and come back."""
+    """contact_model edited to index and back: the column, the lights, views 3 and 5 follow both times."""
     both = "clear\nresize 80 24\ndump\nresize 200 50\ndump\n"
     screens = fast(f"""key 3
         find simulation.contact_model
@@ -145,7 +145,7 @@ def test_contact_model():
 
 
 def test_control_edit():
-    """Another place to count at: no figure of the old place stands under the new name, none is 'nan'."""
+    """Moving a control: no figure of the old place appears under the new name, none is 'nan'."""
     script = """wait idle
         find controls[1]
         key d
@@ -177,7 +177,7 @@ def test_control_edit():
 
 
 def test_undo():
-    """Undo and redo bring back the very same screens."""
+    """Undo and redo restore identical screens."""
     for scene in ("fast.yaml", "wood.yaml"):
         undo_and_redo(scene)
 
@@ -233,7 +233,7 @@ def undo_and_redo(scene):
 
 
 def test_undo_rock():
-    """Undo of a change of the rock brings back the figures too, which are flown anew."""
+    """Undo of a change of the rock restores the figures too, after a new simulation."""
     start, edited, back = fast("""key 3
         find rock.diameter_m
         wait idle
@@ -271,7 +271,7 @@ def wrong(view, word, value, *parts):
 
 
 def test_wrong_values():
-    """A wrong value is explained in place and never accepted."""
+    """A wrong value is explained in place and refused."""
     wrong(2, "shoots[0].dbh_m", "-7", "diameter, cm: -7 is below 0 cm")
     wrong(2, "shoots[0].dbh_m", "1001", "1001 is above 1000 cm")
     wrong(2, "stools.per_ha", "3,000,5", "stools per ha: '3,000,5' is not a number")
@@ -290,7 +290,7 @@ def test_wrong_values():
 
 
 def test_message_whole():
-    """At 80 columns too a refusal can be read to its end."""
+    """At 80 columns too a refusal is fully readable."""
     refused = fast("""find vertices_m[1]
         key Enter Ctrl-U
         type [0, 1]
@@ -302,7 +302,7 @@ def test_message_whole():
 
 
 def test_escape():
-    """Esc leaves a field as it was, whatever was typed."""
+    """Esc restores a field after any typing."""
     before, after = fast("""key 2
         wait idle
         find stools.per_ha
@@ -341,7 +341,7 @@ def test_editing_line():
 
 
 def test_empty_value():
-    """A field that is emptied takes its default."""
+    """An emptied field gets its default."""
     before, after = fast("""key 3
         find simulation.threshold_m
         set 25
@@ -390,7 +390,7 @@ def test_steps():
 
 
 def table(screen, head):
-    """The rows of the table below the line that starts with these words: lists of words."""
+    """Return the rows of the table below the line that starts with these words: lists of words."""
     lines = screen.body.split("\n")
     at = next((i for i, line in enumerate(lines) if line.split()[:len(head.split())] == head.split()), None)
     expect(at is not None, f"no table {head} in the", screen)
@@ -403,14 +403,14 @@ def table(screen, head):
 
 
 def lists(view, word, keys, head, size="120 60"):
-    """The tables after each of some keys, with the cursor on a word."""
+    """Return the tables after each of some keys, with the cursor on a word."""
     script = f"resize {size}\nkey {view}\nwait idle\nfind {word}\ndump\n"
     script += "\n".join(f"key {key}\ndump" for key in keys)
     return [table(s, head) for s in fast(script)]
 
 
 def test_belts():
-    """Belts: y splits one in two, d deletes, a fills the next free stretch, u brings back."""
+    """Belts: y splits one in two, d deletes, a fills the next free stretch, u undoes."""
     head = "from, m to, m stand"
     start, split, gone, back, first = lists(1, "forest[0]", ["y", "d", "u", "u"], head, "200 70")
     expect_equal(start, [["1", "5", "45", "upper"], ["2", "50", "80", "lower"]], "belts")
@@ -464,7 +464,7 @@ def test_cohorts():
 
 
 def test_blocks():
-    """What comes down: a asks for a class, field by field, and offers one ten times as large and as rare; d takes them out"""
+    """Blocks: a asks for a class, field by field, and proposes one ten times as large and as rare; d deletes them"""
     with Place() as place:
         none, refused, one, asked, two, gone, saved = place.play("""resize 120 60
             key 3
@@ -507,7 +507,7 @@ def test_blocks():
 
 
 def test_blocks_without_size():
-    """With blocks a rock's size may be emptied, and its shape changed, which fills in none; without them it is needed. One of two dimensions brings the other along"""
+    """With blocks a rock's size may be empty; without them it is required. One of two dimensions sets the other"""
     with Place() as place:
         place.write("sizes.yaml", play.FAST + "blocks: [{per_year: 1, volume_m3: [0.1, 1], exponent: 1}]\n")
         sized, none, block, refused, typed = place.play("""resize 120 60
@@ -540,8 +540,8 @@ def test_blocks_without_size():
 
 
 def test_blocks_from_anywhere():
-    """a in view 3 asks for a class of blocks wherever the cursor is; a power law becomes the first class; their number a year takes
-    the place of rocks_per_year; d on the power law takes all of them out; the rock says that it needs no size."""
+    """a in view 3 asks for a class of blocks anywhere; a power law becomes the first class; their frequency replaces
+    rocks_per_year; d on the power law deletes all; the rock says that it needs no size."""
     law = "blocks: {per_year: 2, volume_m3: [0.02, 5], exponent: 1.2}   # kept: a power law\n"
     with Place() as place:
         place.write("law.yaml", place.text("fast.yaml") + law)
@@ -562,21 +562,21 @@ def test_blocks_from_anywhere():
 
 
 def grids(folder, script, scene):
-    """What a script writes to standard output, screens and their roles, each of 24 lines."""
+    """Return a script's standard output: screens and their roles, each of 24 lines."""
     lines = play.run_script(folder, script, scene, "--charset", "braille").out.split("\n")
     return [lines[i:i + 24] for i in range(0, len(lines) - 1, 24)]
 
 
 def test_figures_of_before():
-    """After an edit answer, column and pictures of before stay until the new ones are there, dimmed; also where a control is new, and
-    where a copy of an option is changed, of whose forest nothing is known."""
+    """After an edit the former answer, column and pictures stay, dimmed, until new ones arrive; also for a new control, and for
+    a changed copy of an option with an unknown forest."""
     edits = (("fast.yaml", "key /\nkey Ctrl-U\ntype forest[0]\nkey Enter a\n"),
              ("fast.yaml", "key /\nkey Ctrl-U\ntype controls[0]\nkey Enter a\n"),
              ("cuts.yaml", "key 5 y 1\nwait idle\ndump -\nkey /\nkey Ctrl-U\ntype forest[0]\nkey Enter Enter Ctrl-U\ntype 7\nkey Enter\n"))
     with Place() as place:
         place.write("fast.yaml", WOOD)
         for scene, edit in edits:
-            for _ in range(20):  # the first rocks may have fallen already
+            for _ in range(20):  # the first rocks may already be simulated
                 shown = grids(place.path, f"wait idle\ndump -\n{edit}dump -\nroles -\nwait idle\ndump -\nroles -\n", scene)
                 old, now, roles, after, last = shown[-5:]
                 if now[1].endswith("computing …"):
@@ -598,7 +598,7 @@ def test_figures_of_before():
 
 
 def test_segments():
-    """Segments: y splits one in two, d joins them again."""
+    """Segments: y splits one in two, d joins them."""
     head = "bounce Rn slide Rt"
     start, split, joined = lists(1, "segments[0]", ["y", "d"], head, "200 70")
     expect_equal([r[1] for r in start], ["0.3", "0.25"], "rn")
@@ -607,7 +607,7 @@ def test_segments():
 
 
 def test_vertices():
-    """Vertices: a pair is typed; keys that cannot add or delete one say why."""
+    """Vertices: a pair is typed; keys that cannot add or delete one explain why."""
     screens = fast("""resize 200 70
         find vertices_m[1]
         set [60, 35]

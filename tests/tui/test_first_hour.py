@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many keys lead from nothing to a verdict: each letter typed is one."""
+"""Number of keys from nothing to a verdict: each typed letter is one."""
 import re
 import sys
 from pathlib import Path
@@ -13,7 +13,7 @@ from test_screens import lights  # noqa: E402
 
 
 def keys_in(script):
-    """Keys that a hand presses: those named, and each letter that is typed."""
+    """Return the keys pressed by hand: named ones, and each typed letter."""
     n = 0
     for line in script.strip().split("\n"):
         word, _, rest = line.strip().partition(" ")
@@ -28,7 +28,7 @@ def verdict(screen):
 
 
 def test_two_minutes():
-    """With what is offered, a scene of one's own and its verdict take at most 12 keys."""
+    """With the defaults, a user's scene and its verdict take at most 12 keys."""
     script = "key n " + "Enter " * 9
     expect(keys_in(script) <= 12, keys_in(script))
     with Folder() as f:
@@ -37,7 +37,7 @@ def test_two_minutes():
     verdict(screen)
 
 
-# A face, an own profile, an own stand from a sample plot, a verdict over the rotation.
+# A face, the user's profile, a stand from a sample plot, a verdict over the rotation.
 PLOT = """key Enter Enter
     type 12
     key Enter
@@ -64,7 +64,7 @@ BY_FILE = BY_POINTS.replace("type 0 60;40 30;99 0", "type line")
 
 
 def test_sixty_keys():
-    """A face, a profile, a stand from a sample plot and a verdict over the rotation take under 60 keys from nothing."""
+    """A face, a profile, a stand from a sample plot and a verdict over the rotation take under 60 keys."""
     for script in (BY_POINTS, BY_FILE):
         expect(keys_in(script) < 60, f"{keys_in(script)} keys")
         with Folder() as f:
@@ -93,7 +93,7 @@ def test_sixty_keys():
         stand.has("3.333 shoots per stool")  # 40 shoots on 12 stools
 
 
-# What a newcomer asks first, on the paper's site unless a scene is named, the keys that answer it, and where the answer is.
+# A newcomer's first questions, on the paper's site unless a scene is named, with keys and the place of the answer.
 QUESTIONS = (
     ("does it stop the rocks", "", "", "verdict", r"NO: in 1[89] of 20 years more than 50 of 1000 exceed 50 kJ; today \d+"),
     ("how sure is that", "", "key 7", "body", r"current \S+ \d+ \d+–\d+ [^$]*Measure first: shoots: diameter, cm, ADS 1 \(dbh on more plots"),
@@ -111,7 +111,7 @@ QUESTIONS = (
 
 
 def test_ten_questions():
-    """What a newcomer asks first takes at most 25 keys and is answered on a screen of 80 x 24, nothing of it cut without a sign"""
+    """A newcomer's first questions take at most 25 keys and have uncut answers on a screen of 80 x 24"""
     for asked, scene, script, where, answer in QUESTIONS:
         expect(keys_in(script) <= 25, f"{asked}: {keys_in(script)} keys")
         with Folder() as f:

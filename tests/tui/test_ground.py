@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Grounds, belts and the profile's points on the screen: a and y split, neighbours follow, nothing overlaps or gapes; and
-stools that keep their shoots."""
+"""Grounds, belts and the profile's points on the screen: a and y split, neighbours follow, without overlaps or gaps; and stools
+that keep their shoots."""
 import random
 import re
 import sys
@@ -12,7 +12,7 @@ from play import FAST, Place, check_good  # noqa: E402
 from harness import expect, expect_equal, expect_in, expect_near, run_all  # noqa: E402
 from test_editing import table  # noqa: E402
 
-# Belts that touch, grounds of the library, one profile.
+# adjacent belts, grounds of the library, one profile
 LAND = """\
 ceduo: scene/1
 title: land
@@ -44,12 +44,12 @@ def points(screen):
 
 
 def stretches(screen, head):
-    plain = ([word.rstrip("*") for word in row] for row in table(screen, head))  # a star marks what is assumed
+    plain = ([word.rstrip("*") for word in row] for row in table(screen, head))  # a star marks assumed values
     return [(float(r[1]), float(r[2]), " ".join(r[3:])) for r in plain]
 
 
 def test_split_ground():
-    """a and y on a ground make two of it; d gives its stretch to the neighbour; a face at the top takes few keys."""
+    """a and y split a ground; d gives its stretch to the neighbour; a face at the top takes few keys."""
     for key in "ay":
         split, first_gone, back, last_gone = land(f"find materials[0]\nkey {key}\ndump\nkey Up d\ndump\nkey u Down\ndump\nkey d\ndump")
         expect_equal(stretches(split, GROUNDS), [(0, 50, "talus"), (50, 100, "talus")], f"after {key}")
@@ -66,7 +66,7 @@ def test_split_ground():
 
 
 def test_ground_of_csv():
-    """Where a file says no ground, a names what is assumed, and splits it from then on."""
+    """If a file gives no ground, a names the assumed one, which can then be split."""
     none, named, split = land("find materials\nfind facets\nkey Down\ndump\nkey a\ndump\nkey a\ndump", CSV)
     none.has("talus is assumed everywhere", "none; a adds one")
     expect_equal(stretches(named, GROUNDS), [(0, 100, "talus")], "named")
@@ -74,7 +74,7 @@ def test_ground_of_csv():
 
 
 def test_one_ground_apart():
-    """One ground for all segments becomes one for each where it is split; a point of the profile leaves it one."""
+    """One ground for all segments becomes one per split segment; a point of the profile keeps it."""
     split, point = land("find segments[0]\nkey a\ndump\nkey u\nfind vertices_m[0]\nkey a\ndump", ONE_GROUND)
     expect_equal(len(points(split)), 4, "points after a on the ground")
     expect_equal([r[1].rstrip("*") for r in table(split, "bounce Rn slide Rt")], ["0.3"] * 3, "grounds")
@@ -83,7 +83,7 @@ def test_one_ground_apart():
 
 
 def test_points():
-    """a and y put a point between this one and the next, before the last one too; d takes one out, with its ground."""
+    """a and y insert a point between this one and the next, also before the last one; d deletes one, with its ground."""
     for key in "ay":
         first, last, gone = land(f"find vertices_m[0]\nkey {key}\ndump\nkey u\nfind vertices_m[2]\nkey {key}\ndump\nkey u\n"
                                  "find vertices_m[1]\nkey d\ndump")
@@ -97,8 +97,8 @@ def test_points():
 
 
 def test_split_belt():
-    """a and y on a belt split it; with the cursor on its end a fills what lies behind; without belts a plants the slope; both down to the
-    next control at most."""
+    """a and y on a belt split it; at its end a fills the stretch after it; without belts a plants the slope; at most to the
+    next control."""
     for key in "ay":
         split = land(f"find forest[1]\nkey {key}\ndump")[0]
         expect_equal(stretches(split, BELTS)[1:], [(45, 62.5, "large reserves"), (62.5, 80, "large reserves")], key)
@@ -112,7 +112,7 @@ def test_split_belt():
 
 
 def test_new_belt():
-    """A new belt ends at the next control, before the next belt or at the end of the slope, and has its neighbour's stand."""
+    """A new belt ends at the next control, at the next belt or at the end of the slope, and copies its neighbour's stand."""
     text = LAND.replace("controls: [{x_m: 90, accepted_kJ: 50}]", "controls: [{x_m: 55, name: path}, {x_m: 90, accepted_kJ: 50}]")
     gap = text.replace("{from_m: 45, to_m: 80", "{from_m: 50, to_m: 52")
     for scene, to in ((gap, 50), (gap.replace("  - {from_m: 50, to_m: 52, stand: large-reserves}\n", ""), 55)):
@@ -125,7 +125,7 @@ def test_new_belt():
 
 
 def test_belt_under_the_cursor():
-    """p and c in view 1 are about the belt under the cursor, of the form or along the slope, whatever view 2 showed last."""
+    """p and c in view 1 affect the belt under the cursor, in the form or along the slope, whatever view 2 showed last."""
     listed = land("key 2\nfind forest[1]\nkey 1\nfind forest[0]\nkey p\ndump")[0]
     expect_in("Stand of belt 1, now 'simple coppice, 25 years'", listed.text)
     for keys, belt in (("find forest[0]\nkey p", 0), ("find forest[1]\nkey p", 1), ("find forest[0]\nkey a p", 1),
@@ -139,7 +139,7 @@ def test_belt_under_the_cursor():
 
 
 def test_neighbours_follow():
-    """Where a border moves its neighbour moves with it, and that is said; u takes both back."""
+    """Moving a border moves the neighbour's, with a message; u undoes both."""
     moved, over, back = land("find forest[0].to_m\nset 50\ndump\nkey Down Left\nset 30\ndump\nkey u u\ndump")
     expect_equal([s[:2] for s in stretches(moved, BELTS)], [(10, 50), (50, 80)], "to_m")
     expect_in("the next item now begins at 50 m", moved.note)
@@ -160,7 +160,7 @@ def test_neighbours_follow():
 
 
 def test_any_border():
-    """Whatever border is moved, grounds leave no gap and nothing overlaps."""
+    """After moving any border grounds have no gap and nothing overlaps."""
     draw = random.Random(5)
     script = "find materials[0]\nkey a a a\n"
     for _ in range(40):
@@ -178,8 +178,8 @@ def test_any_border():
 
 
 def test_from_the_end():
-    """A place typed from the end of the profile, as files have it: borders go along, steps and halves count from there, other
-    words are refused, and the file has it as it was typed"""
+    """A place typed from the end of the profile, as in files: borders follow, steps and halves count from there, other words
+    are refused, and the file keeps it as typed"""
     with Place() as place:
         place.write("land.yaml", LAND.replace("controls: [{x_m: 90, accepted_kJ: 50}]", "controls_m: [85, 90]"))
         typed, stepped, split, ground, refused, controls, rock = place.play("""resize 200 70

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The terminal program in Italian: at 80x24 nothing is cut that English shows whole, and columns stand where they stood."""
+"""The terminal program in Italian: at 80x24 no more is cut than in English, and columns keep their places."""
 import functools
 import re
 import sys
@@ -18,18 +18,18 @@ SCENES = ("fast.yaml", "options.yaml", "cuts.yaml", "wood.yaml")
 
 @functools.cache
 def both(script, scene, charset="braille"):
-    """The screens in both languages, side by side."""
+    """Return the screens in both languages."""
     with Place() as place:
         return list(zip(*(play(place.path, script, scene, "--language", language, charset=charset) for language in ("en", "it"))))
 
 
 def words_cut(screen):
-    """Words that an ellipsis ends; where figures or a path are not there yet, it stands alone."""
+    """Return words cut by an ellipsis; it stands alone if figures or a path are missing."""
     return re.findall(r"\w+" + CUT, str(screen))
 
 
 def test_views():
-    """No view cuts more words in Italian than in English, and none is a translation file's header"""
+    """No view cuts more words in Italian than in English, and none prints a translation file's header"""
     for scene in SCENES:
         for number, (english, italian) in enumerate(both(VIEWS, scene), 1):
             text = str(italian)
@@ -40,8 +40,8 @@ def test_views():
 
 
 def test_numbers():
-    """The figures are the same; Italian has a comma where English has a dot"""
-    belts = "key 6\nwait idle\ndump\nkey 1 Right Enter Ctrl-U\ntype 50.5\nkey Enter\ndump"  # what follows is said, too
+    """The figures are equal; Italian has a comma instead of a dot"""
+    belts = "key 6\nwait idle\ndump\nkey 1 Right Enter Ctrl-U\ntype 50.5\nkey Enter\ndump"  # the message follows
     shape = "key 3 Enter Down Enter\ndump"
     for english, italian in both("key 1\nwait idle\ndump", "fast.yaml") + both(belts, "paper-site") + both(shape, "fast.yaml"):
         dots, commas = (re.findall(sign, str(screen)) for screen, sign in ((english, r"\d+\.\d+"), (italian, r"\d+,\d+")))
@@ -50,7 +50,7 @@ def test_numbers():
 
 
 def test_fields():
-    """A field and the popups offer decimals with a comma and take them, the file has a dot; units have their powers"""
+    """Fields and popups propose and accept decimal commas, the file has a dot; units have their powers"""
     with Place() as place:
         opened, after, new = play(place.path, "key 3\nfind rock.diameter_m\nkey Enter\ndump\nkey Esc\nset 0,75\ndump\n"
                                   "key s\nkey n\ndump", "fast.yaml", "--language", "it")
@@ -64,7 +64,7 @@ def test_fields():
 
 
 def test_words():
-    """Words of a file are shown and taken in Italian; the file keeps its own, and a new one has those of files"""
+    """Words of a file are displayed and typed in Italian; files keep their own words, also new ones"""
     with Place() as place:
         place.write("l.csv", "Distanza;Quota\n0;60\n40;30\n99;0\n")
         for name in ("rilievo.txt", "RILIEVO.CSV", "note.doc"):
@@ -84,7 +84,7 @@ def test_words():
 
 
 def test_names():
-    """A new name holds in both languages; an option of a stand of the program is called by its Italian name"""
+    """A new name exists in both languages; an option of a shipped stand has its Italian name"""
     with Place() as place:
         renamed, added = play(place.path, "key 5 Enter Ctrl-U\ntype diradato\nkey Enter\ndump\nkey a\ntype sterzo, tagl\nkey Enter G\ndump\n"
                               "key s Ctrl-U\ntype new.yaml\nkey Enter", "four-systems", "--language", "it")
@@ -95,14 +95,14 @@ def test_names():
 
 
 def test_sizes():
-    """What is said of another shape's sizes has commas in its numbers and none between them"""
+    """The message about another shape's sizes has decimal commas and no list commas"""
     with Place() as place:
         (said,) = play(place.path, "key 3\nwait idle\nfind rock.shape\nkey Enter End Enter\ndump", "fast.yaml", "--language", "it")
         expect(re.search(r"volume: assi 0,403 0,403 0,403 m;", said.note), said)
 
 
 def test_columns():
-    """The rule beside the figures stands in one column, as in English"""
+    """The rule at the figures is in one column, as in English"""
     for english, italian in both(VIEWS, "options.yaml"):
         for screen in (english, italian):
             lines = [line for line in str(screen).split("\n") if "\u2502 su 1000" in line or "\u2502 of 1000" in line]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a terminal sends that is no key: sequences that the program does not know, and what is pasted."""
+"""Terminal input that is no key: unknown sequences, and pastes."""
 import base64
 import fcntl
 import os
@@ -20,7 +20,7 @@ from harness import CEDUO, Suite, expect, expect_equal, expect_in, tests_of  # n
 
 ON, OFF = b"\x1b[?2004h", b"\x1b[?2004l"
 
-# Their letters are keys: 's' saves, 'n' and 'o' ask for another scene, 'q' quits.
+# their letters are keys: 's' saves, 'n' and 'o' ask for another scene, 'q' quits
 UNKNOWN = {"CSI": "\x1b[99;99s", "CSI with a private mark": "\x1b[?1;2c", "CSI with an intermediate": "\x1b[1;2 q",
            "CSI of one letter": "\x1b[s", "a function key of Linux": "\x1b[[s", "SS3": "\x1bOs",
            "OSC to BEL": "\x1b]11;rgb:qsno\a", "OSC to ST": "\x1b]52;c;qsno\x1b\\", "DCS": "\x1bP1+qsno=qs\x1b\\",
@@ -29,11 +29,11 @@ UNKNOWN = {"CSI": "\x1b[99;99s", "CSI with a private mark": "\x1b[?1;2c", "CSI w
            "C1 DCS": "\x90qsno\x1b\\", "C1 that begins nothing": "\x85",
            "APC": "\x1b_qsno\x1b\\", "PM": "\x1b^qsno\x1b\\", "SOS": "\x1bXqsno\x1b\\",
            "one after the other": "\x1b[9s\x1b[9s\x1bOs\x1b]s\x1b[9s"}
-PAUSE = 0.1  # longer than Esc waits, shorter than what makes a key of the beginning of a sequence
+PAUSE = 0.1  # longer than Esc waits, shorter than the limit that makes a key of an incomplete sequence
 
 
 def changed(t, scene="fast.yaml"):
-    """A scene with an edit that is not saved, at the diameter of the rock."""
+    """Return a scene with an unsaved edit, at the diameter of the rock."""
     t.start(scene)
     t.keys("3")
     t.sees("diameter")
@@ -42,7 +42,7 @@ def changed(t, scene="fast.yaml"):
 
 
 def unharmed(t, place, what):
-    """Nothing was done since the edit: a last key shows that all before it was read."""
+    """Expect no change since the edit: a last key shows that all earlier input was read."""
     t.keys("2")
     t.sees("stools per ha", "* fast", lacks=("saved ",))
     expect_equal(place.text("fast.yaml"), FAST, f"the file after {what}")
@@ -53,7 +53,7 @@ def unharmed(t, place, what):
 # ---- sequences ----
 
 def test_unknown():
-    """Sequences that the terminal is not known for are swallowed whole."""
+    """Unknown sequences are swallowed whole."""
     with Place() as place, Tmux(place) as t:
         changed(t)
         for what, sequence in UNKNOWN.items():
@@ -62,7 +62,7 @@ def test_unknown():
 
 
 def test_in_pieces():
-    """The same where they come in two reads, cut anywhere after their second byte."""
+    """The same in two reads, cut anywhere after their second byte."""
     with Place() as place, Tmux(place) as t:
         changed(t)
         for what, sequence in UNKNOWN.items():
@@ -76,7 +76,7 @@ def test_in_pieces():
 
 
 def test_string_in_the_help():
-    """A string whose end comes in two pieces is no Esc: an open list stays open."""
+    """A string whose end arrives in two pieces is no Esc: an open list stays open."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         t.keys("w")
@@ -89,8 +89,8 @@ def test_string_in_the_help():
 
 
 def test_escape_goes_on():
-    """Esc is Esc, at once and before a key of its own; with a character at once it is Alt, which does nothing; Alt with a bracket
-    holds the keys up for a second only."""
+    """Esc works at once and before a separate key; followed directly by a character it is Alt, which does nothing; Alt with a
+    bracket delays keys by at most a second."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         for after in ("", "\x1b", "\x1b[B", "\x1b[M ,!"):
@@ -108,7 +108,7 @@ def test_escape_goes_on():
             t.keys("1")
             t.sees("Belts of forest")
             t.text(held)
-            time.sleep(3)  # a second, and what a busy machine adds
+            time.sleep(3)  # a second, plus the delay of a busy machine
             t.keys("2")
             t.sees("stools per ha")
 
@@ -147,13 +147,13 @@ def test_known():
 # ---- pastes ----
 
 def paste(t, text):
-    """As tmux pastes: between the two sequences if the program asked for them, otherwise as keys."""
+    """Paste like tmux: between the two sequences if the program asked for them, otherwise as keys."""
     t.tmux("set-buffer", "--", text)
     t.tmux("paste-buffer", "-p", "-r")
 
 
 def test_paste_nowhere():
-    """Where nothing is typed a paste does nothing, whatever is in it, and that is said."""
+    """Outside input fields a paste does nothing, with a message."""
     with Place() as place, Tmux(place) as t:
         changed(t)
         for text in ("s", "\x1b[<0;12;1M\x1b[M ,!", "qsno\nwdd\r\n", "\x1b[99s", "2\x1bOs", "s" * 5000):
@@ -163,7 +163,7 @@ def test_paste_nowhere():
 
 
 def test_paste_field():
-    """A paste goes into the field that is open: line ends as one blank, nothing of it a key."""
+    """A paste goes into the open field: line ends become one blank, no key is executed."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         t.keys("3", "/")
@@ -182,7 +182,7 @@ def test_paste_field():
 
 
 def test_paste_in_pieces():
-    """A paste that comes slowly and in pieces is one, also if its end is cut."""
+    """A slow paste in pieces is one, also if its end is cut."""
     with Place() as place, Tmux(place) as t:
         changed(t)
         for piece in ("\x1b[20", "0~sq", "s\x1b", "[20", "1~"):
@@ -193,7 +193,7 @@ def test_paste_in_pieces():
 
 
 def test_paste_list():
-    """In a list and in fields a paste is what is typed; in a text it does nothing."""
+    """In a list and in fields a paste is typed text; in a read-only text it does nothing."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         t.keys("w")
@@ -220,7 +220,7 @@ def test_paste_list():
 
 
 def test_paste_without_end():
-    """A paste whose end is lost is given up by Ctrl-C."""
+    """Ctrl-C ends a paste whose end is lost."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         t.text("\x1b[200~qq")
@@ -234,10 +234,10 @@ def test_paste_without_end():
         t.sees("stools per ha")
 
 
-# ---- what the terminal is asked for ----
+# ---- terminal modes ----
 
 class Pty:
-    """The program on a bare pseudo-terminal, and all that it writes."""
+    """The program on a bare pseudo-terminal, and all its output."""
 
     def __init__(self, place, term, **changes):
         self.out = b""
@@ -263,7 +263,7 @@ class Pty:
         until(lambda: f"{part} in {self.out[-2000:]!r}", lambda: part in self.read())
 
     def end(self, by):
-        """Ends it by a key or a signal; returns all it wrote."""
+        """End it by a key or a signal; return all its output."""
         if isinstance(by, bytes):
             os.write(self.fd, by)
         else:
@@ -276,8 +276,8 @@ class Pty:
 
 
 def test_copy():
-    """Y gives the terminal's clipboard what the view says, its form whole and without its picture; through tmux too; on the
-    Linux console it says why not, and writes nothing"""
+    """Y copies the view's text to the terminal's clipboard, its form fully and without its picture; through tmux too; the Linux
+    console cannot, with a message"""
     with Place() as place:
         for changes in ({}, {"TMUX": "/tmp/tmux-1000/default,1,0"}):
             program = Pty(place, "xterm", **changes)
@@ -328,7 +328,7 @@ def test_quit():
 
 
 def test_asked():
-    """The terminal is asked to mark pastes, and no longer at the end, by whatever it came."""
+    """The terminal is asked to mark pastes, until any end of the program."""
     ends = [b"q", signal.SIGTERM, signal.SIGHUP] + ([] if ASAN else [signal.SIGSEGV, signal.SIGABRT])
     for by in ends:
         with Place() as place:
@@ -339,13 +339,13 @@ def test_asked():
 
 
 def test_not_asked():
-    """The Linux console, which marks no pastes, is not asked."""
+    """The Linux console does not mark pastes and is not asked."""
     with Place() as place:
         expect(b"?2004" not in Pty(place, "linux").end(b"q"), "asked")
 
 
 def test_asked_again():
-    """Suspended, the terminal marks no pastes for the shell; they are marked again once the program goes on."""
+    """Suspended, the terminal marks no pastes for the shell; it does again when the program continues."""
     with Place() as place, Tmux(place) as t:
         place.write("shell.sh", "stty -icanon min 1 -echo; printf 'READ>'; dd bs=1 count=4 2>&- | od -An -c; stty sane\n")
         changed(t)

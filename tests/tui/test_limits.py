@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Popups: a table with more fields or answers than a popup can hold fails at build."""
+"""Popups: a table with too many fields or answers fails at build time."""
 import os
 import re
 import shutil
@@ -12,7 +12,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
 from harness import ROOT, Skip, expect, run_all  # noqa: E402
 
-# File, what is made too much for it, and the words of the assertion.
+# file, the array to overflow, and the words of the assertion
 TOO_MANY = [
     ("src/scene/fields_observed.c", ("src/scene/schema.h", r"(ASKED_FIELDS_MAX +)\d+", r"\g<1>5"), "crossing_fields: more than a popup"),
     ("src/scene/fields.c", ("src/scene/schema.h", r"(ASKED_FIELDS_MAX +)\d+", r"\g<1>5"), "page_fields: more than a popup"),
@@ -31,7 +31,7 @@ def compiles(root, name):
 
 
 def test_limits():
-    """One field or answer too many in a table does not compile, and as it is the table does"""
+    """One field or answer too many does not compile, the unchanged table does"""
     if not shutil.which(os.environ.get("CC", "cc").split()[0]):
         raise Skip("no compiler here")
     with tempfile.TemporaryDirectory() as folder:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The manual ceduo-terminal(7) against the screen: the smallest window, the heads of columns, the keys."""
+"""The manual ceduo-terminal(7) and the screen: the smallest window, the heads of columns, the keys."""
 import re
 import sys
 from pathlib import Path
@@ -11,12 +11,12 @@ from harness import ROOT, expect, expect_equal, expect_in, run_all  # noqa: E402
 
 PAGE = (ROOT / "man/ceduo-terminal.7").read_text()
 
-# Names of keys beside those of the table: they end a field or a list, or are signals of the terminal.
+# names of keys not in the table: they end a field or a list, or are signals of the terminal
 OTHER_KEYS = {"Space", "Backspace", "Ctrl-U", "Ctrl-C", "Ctrl-Z"}
 
 
 def plain(text):
-    """A word of mdoc as it is read."""
+    """Return a word of mdoc as its reader sees it."""
     return text.replace("\\(S3", "³").replace("\\&", "").replace("\\-", "-").replace("\\~", " ")
 
 
@@ -30,7 +30,7 @@ def part_of(first, last):
 
 
 def test_smallest_window():
-    """The smallest window of the manual is the one that the program asks for, and has the whole screen"""
+    """The smallest window of the manual is the program's, and has the whole screen"""
     columns, lines = map(int, re.search(r"Below (\d+) columns or (\d+) lines", PAGE).groups())
     for width, height in ((columns - 1, lines), (columns, lines - 1)):
         (small,) = fast(f"resize {width} {height}\ndump")
@@ -40,7 +40,7 @@ def test_smallest_window():
 
 
 def test_heads():
-    """What the manual says stands in quotes on the screen stands there: heads of view 5, of the column on the right, its last line"""
+    """Quoted texts of the manual are on the screen: heads of view 5, of the column on the right, its last line"""
     small, large, begun = fast("resize 80 24\nkey 5\nwait idle\ndump\nresize 160 50\ndump\nkey 3 +\ndump", "rotation")
     table = quoted(part_of(".It 5 compare", ".It 6 rotation"))
     expect_equal(table[:5], ["today", "mean", "worst", "fail", "m³/y"])
@@ -61,13 +61,13 @@ def test_heads():
 
 
 def test_index_dashes():
-    """By the index the column of what passes the forest has dashes"""
+    """By the index the column of arrivals with forest has dashes"""
     (screen,) = fast("wait idle\ndump")
     expect_equal(screen.pair("arrive")[0], None, screen)
 
 
 def test_keys():
-    """Each key that the manual names is in the program's table, and each key of the table in the manual's"""
+    """The manual has exactly the keys of the program's table"""
     table = {word for _, first, second, _, _ in actions() for word in (first, second) if word}
     named = set()
     for line in re.findall(r"^(?:\.It )?\.?Ic (.*)$", PAGE, re.M):

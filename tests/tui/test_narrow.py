@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small screens, from 60 to 79 columns and from 16 to 23 lines: what has no room is cut with a sign, and no words run together."""
+"""Small screens, from 60 to 79 columns and from 16 to 23 lines: cut text has a mark, and words stay separate."""
 import re
 import sys
 from pathlib import Path
@@ -20,7 +20,7 @@ def words_of(sources):
 
 
 def vocabulary():
-    """The words of the program's texts, of its files, and of their names."""
+    """Return the words of the program's texts, of its files, and of their names."""
     strings = [re.sub(r"\\x[0-9a-f]{2}|\\n|%[-+.*0-9]*(?:ll|z)?[a-z]", " ", string) for path in ROOT.glob("src/**/*.[ch]")
                for string in re.findall(r'"((?:[^"\\]|\\.)*)"', path.read_text())]
     files = [f"{path.stem} {path.read_text()}" for path in ROOT.glob("profiles/**/*.yaml")]
@@ -28,7 +28,7 @@ def vocabulary():
 
 
 def foreign(screen, known):
-    """The words of a screen that are none: what was cut without a sign, or glued to its neighbour."""
+    """Return unknown words of a screen: cut without a mark, or joined to a neighbour."""
     return [(word.group(), line) for line in screen.whole().lines for word in WORD.finditer(line)
             if len(word.group()) > 1 and word.group().lower() not in known
             and line[word.end():word.end() + 1] not in tuple(SIGNS) and line[word.start() - 1:word.start()] not in tuple(SIGNS)]
@@ -55,7 +55,7 @@ def test_views():
 
 
 def test_typed():
-    """A field that is being edited, and each popup: help, lists, and fields of which not all have room."""
+    """An open field, and each popup: help, lists, and fields that do not all fit."""
     field = "key Esc Esc Esc Esc Esc Esc Esc Esc 2 /\nkey Ctrl-U\ntype stools.per_ha\nkey Enter\n"
     popups = ["?", "p", "n", "n Enter Enter Enter Enter Enter", "o", "w", "f", "c", "c Down Down Down Down Down Down Down", "/", "S",
               ":", "8 a 1", "Enter"]

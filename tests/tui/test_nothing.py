@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A new scene from a profile that is drawn upward, that begins behind the edge, or with a face; and a scene of which nothing can be said."""
+"""A new scene from a profile drawn upward, starting above the edge, or with a face; and a scene without an answer."""
 import re
 import sys
 from pathlib import Path
@@ -9,9 +9,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import Folder, check_good, expect, play
 from harness import expect_equal, expect_in, result, run_all
 
-# It begins 4 m behind the edge of a cliff.
+# it begins 4 m above the edge of a cliff
 LINE = [(0, 141.4), (4, 140), (14, 105), (40, 88), (100, 50), (160, 15)]
-# As a terrain model gives it: points each 5 m, the edge between two of them.
+# like a terrain model: points each 5 m, the edge between two of them
 FINE = [(x, 200 - 0.2 * x if x <= 30 else 194 - 2 * (x - 30) if x <= 45 else 164 - 0.55 * (x - 45)) for x in range(0, 301, 5)]
 
 
@@ -45,7 +45,7 @@ def new_scene(folder, points, size="80 24"):
 
 
 def test_new_from_profiles():
-    """n guesses the edge, marks the face, turns an upward profile round and shows it while it asks; the verdict is of moving rocks"""
+    """n guesses the edge, marks the face, reverses an upward profile and previews it; the verdict has moving rocks"""
     figures = []
     for points, release, face, words in (
             (LINE, "4", "14", "line.csv: 6 points, 160 m long, falls 126.4 m; columns distance, elevation. Steepest at 4 m, 74"),
@@ -58,7 +58,7 @@ def test_new_from_profiles():
                 asked.has(f"rocks start at x, m {release}_")
                 shown = asked.popup.split("face from the top to x, m")[1].split("\n")[0].split()
                 expect(shown[:1] == [face] if face else not shown[:1] or not shown[0][0].isdigit(), "the face", asked)
-                if size == "80 24": # beside a wider screen's popup stands the view below it
+                if size == "80 24": # on a wider screen the view continues next to the popup
                     expect_in(words, " ".join(asked.popup.split()))
                 asked.has("release")
                 expect(any(0x2800 < ord(c) < 0x2900 for c in asked.text.split("│ stand ")[1]), "no picture", asked)
@@ -71,7 +71,7 @@ def test_new_from_profiles():
 
 
 def test_guess_stays():
-    """What was typed for the release stays when the profile is only looked at again, and is guessed anew for another profile"""
+    """A typed release stays when the same profile is read again, and is guessed again for another profile"""
     with Folder() as f:
         f.write("line.csv", csv(LINE))
         stayed, anew = play(f.path, """key n Enter Ctrl-U
@@ -89,7 +89,7 @@ def test_guess_stays():
 
 
 def test_nothing():
-    """Where no rock arrives without forest no light is on and no option is best, in each view; the release mends it"""
+    """If no rock arrives without forest no light is on and no option is best, in each view; moving the release helps"""
     with Folder() as f:
         f.write("line.csv", csv(LINE))
         f.write("s.yaml", """ceduo: scene/1
@@ -127,7 +127,7 @@ options:
 
 
 def test_cursor_on_a_reversed_profile():
-    """The cursor of view 1 edits the ground and the point that lie below it, where the file has them in the other order"""
+    """The cursor of view 1 edits the ground and point below it, also in a reversed file"""
     with Folder() as f:
         f.write("s.yaml", """ceduo: scene/1
 rock: {diameter_m: 0.68}
@@ -150,13 +150,13 @@ controls: [{x_m: 120}]
             wait idle
             key s
             dump""", f.path / "s.yaml")
-        # From the middle, 80 m, down to the next point of the slope: 100 m, which the file has at 60 m, the second.
+        # From the middle, 80 m, down to the next point of the slope: 100 m; in the file it is at 60 m, the second.
         here.has("number 2, at 100 m", "edit the ground here: number 1")
         text = (f.path / "s.yaml").read_text()
         split.has("saved")
         points = [tuple(float(v) for v in pair) for pair in re.findall(r"\[([\d.]+), ([\d.]+)\]", text)]
         expect_equal(len(points), 7, text)
-        x, z = points[1] # a little below 100 m of the slope, a little below 60 m of the file
+        x, z = points[1] # a little below 100 m of the slope is a little below 60 m of the file
         expect(50 < x < 60 and abs(z - (15 + x * 35 / 60)) < 1e-6, points)
 
 

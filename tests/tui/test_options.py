@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options side by side in the terminal program, and the column of figures beside every view."""
+"""The options side by side in the terminal program, and the column of figures in every view."""
 import math
 import re
 import sys
@@ -54,7 +54,7 @@ def test_options():
 
 
 def test_names_of_copies():
-    """y on a copy counts its number up, whatever else stands in the name."""
+    """y on a copy increases its number, for any other name."""
     found = option_names(fast("resize 120 40\nkey 5\nwait idle\n" + "key y\n" * 3 + "wait idle\ndump", "options.yaml")[0])
     expect_equal(found[:4], ["thick", "thick (2)", "thick (3)", "thick (4)"], "copies of copies")
     with Place() as place:
@@ -83,8 +83,8 @@ def test_odd_names():
 
 
 def test_contact_reason():
-    """The light of contact tells what fails: a gap where that is it, otherwise the ADC."""
-    # Below the track the ground falls by 0.3 m a metre, which rocks follow with a friction of 0.2.
+    """The light of contact names the failing test: a gap, or the ADC."""
+    # Below the track the ground falls by 0.3 m per metre; rocks follow it with a friction of 0.2.
     text = FAST.replace("[[0, 80], [60, 30], [100, 0]]", "[[0, 80], [60, 30], [160, 0]]").replace("x_m: 80", "x_m: 150") \
         .replace("friction: 0.7", "friction: 0.2")
     with Place() as place:
@@ -104,27 +104,27 @@ def test_contact_reason():
 
 
 def test_index_zero():
-    """Where no stems take anything the index takes 0, not -0."""
+    """If stems take no energy the index prints 0, not -0."""
     screen = fast("key 5 Down Down\nwait idle\ndump", "options.yaml")[0]
     expect(re.search(r"^taken kJ +0$", screen.now, re.M), screen)
 
 
 def test_rename_refused():
-    """Two options cannot have one name; the refusal says so and keeps the question."""
+    """Two options cannot have one name; the refusal keeps the question open."""
     screen = fast("key 5\nkey Enter Ctrl-U\ntype thin\nkey Enter\ndump", "options.yaml")[0]
     screen.has("Name of this option")
     expect(re.search("thin", screen.text) and "thick" in screen.text, screen)
 
 
 def test_compare_marks():
-    """The option that is clearly best over the years is named so, and the worst: in words, only where that is clear."""
+    """The clearly best option over the years is named, and the worst: in words, only if it is clear."""
     screen = fast("resize 120 40\nkey 5\nwait idle\ndump", "cuts.yaml", charset="ascii")[0]
     rows = dict(compared(screen))
     expect_equal({name: cells["best"] for name, cells in rows.items()}, {"thick": "best", "thin": "", "none left": "worst"})
     script = "".join(f"resize {width} {height}\nkey 5\nwait idle\ndump\n" for width, height in SIZES[1:])
     with Place() as place:
         screens = place.play(script, scene_for(place, "four-systems"), charset="ascii", rocks=None) if FULL else ()  # takes long
-    for screen in screens:  # over the same years one that was just cut grows, one that is grown is cut
+    for screen in screens:  # over the same years a freshly cut one grows, a grown one is cut
         rows = dict(compared(screen))
         means = {name: tuple(map(float, cells["mean"].split("+-"))) for name, cells in rows.items()}
         best = min(means, key=means.get)
@@ -135,7 +135,7 @@ def test_compare_marks():
 
 
 def test_worst_overlaps():
-    """Of two options whose shares over the years lie within their errors neither is called the worst."""
+    """Of two options whose shares over the years overlap none is called the worst."""
     hardly = """  - name: hardly any
     forest:
       - {from_m: 5, to_m: 80, stand: {name: one, species: ostrya-carpinifolia, energy: {model: brauner, u_J_m3: 100000},
@@ -178,7 +178,7 @@ def test_compare_wood():
 
 
 def test_reorder_at_once():
-    """Options moved, copied, deleted: no option's figures stand under another's name, what is known stays in sight."""
+    """Options moved, copied, deleted: no figures appear under another name, known ones stay visible."""
     before, moved, later, copied, gone = fast("""resize 120 40
         key 5
         wait idle
@@ -203,7 +203,7 @@ def test_reorder_at_once():
 
 
 def test_compare_arrive():
-    """View 5 where it is not said what the place withstands: those that arrive are compared, the energy lights are unknown"""
+    """View 5 without an accepted energy: arrivals are compared, the energy lights are unknown"""
     with Place() as place:
         place.write("cuts.yaml", play.CUTS.replace(", accepted_kJ: 250", ""))
         screen = place.play("resize 120 40\nkey 5\nwait idle\ndump", "cuts.yaml")[0]
@@ -218,7 +218,7 @@ def test_compare_arrive():
 
 
 def test_now_wood():
-    """The column on the right has the figures of the JSON of as many rocks, for each option, at 80x24 and 200x50."""
+    """The column on the right has the figures of JSON with equal rocks, for each option, at 80x24 and 200x50."""
     script = "wait idle\nkey 1\n" + "clear\nresize 80 24\ndump\nresize 200 50\ndump\nkey ]\n" * 3
     with Place() as place:
         screens = place.play(script, "cuts.yaml")
@@ -248,7 +248,7 @@ def test_now_wood():
 
 
 def test_compare_one():
-    """With one option none is best; a adds one from a preset and both are compared."""
+    """With one option none is best; a adds one from a preset and compares both."""
     one, two = fast("""key 5
         wait idle
         dump
@@ -265,7 +265,7 @@ def test_compare_one():
 
 
 def test_next_option():
-    """] and [ go from option to option in every view, and the figures with them."""
+    """] and [ change the option in every view, with its figures."""
     screens = fast("""key 2
         wait idle
         dump

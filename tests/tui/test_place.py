@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The cursor along the slope: where it goes, what it says, what can be edited and put there, how near the picture is."""
+"""The cursor along the slope: movement, figures, edits at its place, zoom."""
 import re
 import sys
 from pathlib import Path
@@ -21,7 +21,7 @@ def place(screen):
 
 
 def test_goes_along():
-    """Tab goes to it, left and right move it onto round metres, up and down to the next point, border or control."""
+    """Tab activates it, left and right move it to round metres, up and down to the next point, border or control."""
     keys = ("Tab", "Right", "Left", "Down", "Down", "Down", "Down", "Up", "Up", "Up", "Up", "Up", "Up", "Up")
     screens = land("wait idle\nkey Tab\n" + "".join(f"key {k}\ndump\n" for k in keys))
     # 50 m in 60 m: 39.8 degrees; 30 m in 40 m: 36.9 degrees
@@ -37,11 +37,11 @@ def test_goes_along():
 
 
 def test_tells_what_passes():
-    """It says what the strips show there: height and energy of the rocks that pass; nothing above the release."""
+    """It shows the strips' values there: height and energy of passing rocks; nothing above the release."""
     below, above = land("wait idle\nkey Tab Tab\ndump\nkey Up Up Up\ndump", LAND.replace("rock:", "release: {x_m: 30}\nrock:"))
     expect(AT.match(below.note).group(4), below.note)
     height, energy = float(AT.match(below.note).group(4)), float(AT.match(below.note).group(5))
-    # 0.8 m across at 2700 kg/m3 weigh 724 kg; in 20 m of 39.8 degrees a rock falls 16.7 m: 118 kJ at most
+    # 0.8 m at 2700 kg/m3 weigh 724 kg; in 20 m of 39.8 degrees a rock falls 16.7 m: at most 118 kJ
     expect(0 < energy < 118 and 0 <= height < 16.7, below.note)
     expect_equal(place(above)[0], 10, "above the release")
     expect(not AT.match(above.note).group(4), above.note)
@@ -72,7 +72,7 @@ def test_puts_things_there():
 
 
 def test_leads_to_the_field():
-    """What stands there is edited where it stands in the form."""
+    """An object there is edited at its place in the form."""
     _, screen = chosen(LAND, "Down", "edit the ground")
     expect(screen.note.startswith("from, m:"), screen.note)
     _, screen = chosen(LAND, "Down Down Down", "edit the control")  # at 90 m
@@ -82,14 +82,14 @@ def test_leads_to_the_field():
 
 
 def shown(screen):
-    """The metres at the ends of the picture's axis."""
+    """Return the metres at the ends of the picture's axis."""
     line = next(line for line in reversed(screen.body.split("\n")) if re.fullmatch(r" *\d[\d m.]*", line) and " m" in line)
     numbers = [float(n) for n in re.findall(r"[\d.]+", line)]
     return numbers[0], numbers[-1]
 
 
 def test_zoom():
-    """z brings the slope nearer around the cursor, twice each time, at true scale; Z goes back to the whole."""
+    """z zooms in around the cursor by a factor 2, at true scale; Z shows the whole."""
     whole, *nearer, back, end = land("wait idle\nkey Tab Tab Down\ndump\n" + "key z\ndump\n" * 3 + "key Z Z Z\ndump\nkey Z\ndump")
     widths = []
     for screen, half in zip((whole, *nearer), (60, 25, 12.5, 6.25)):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow
-"""What lies over the views of the terminal program: presets, new scenes, files to open, search, help, counts of a plot."""
+"""Popups of the terminal program: presets, new scenes, files to open, search, help, counts of a plot."""
 import math
 import re
 import sys
@@ -15,11 +15,11 @@ from test_screens import lights  # noqa: E402
 
 # ---- presets, new, open ----
 
-STEMS = {"ads-1": 8326 + 750, "simple-coppice": round(2500 * 2.695 + 60)}  # a hectare, of the files themselves
+STEMS = {"ads-1": 8326 + 750, "simple-coppice": round(2500 * 2.695 + 60)}  # per hectare, from the files
 
 
 def test_presets():
-    """Presets show how many stems each has, and before it is chosen what it would give."""
+    """Presets show their number of stems, and a preview before the choice."""
     for size in ("120 40", "80 24"):
         lines = [x for screen in fast(f"resize {size}\nkey 2\nkey p\ndump\n" + "key Down\ndump\n" * 45)
                  for x in screen.text.split("\n")]
@@ -51,7 +51,7 @@ def test_presets():
 
 
 def test_new_typed():
-    """n: a new scene typed in one form, computed at once, saved where one says, and it is valid."""
+    """n: a new scene typed in one form, computed at once, saved at the given name, and valid."""
     with Place() as place:
         screens = place.play("""key n
             dump
@@ -111,7 +111,7 @@ def test_new_csv():
 
 
 def test_new_refused():
-    """n: what cannot be a scene is explained at its own question, and nothing is lost."""
+    """n: invalid input is explained at its own question, and nothing is lost."""
     for fields, part in ((("x", "0 10"), "points x z"), (("x", "ten by ten"), "points x z"), (("x", "none.csv"), "none.csv"),
                          (("x", "0 60, 100 12", "100"), "rocks start at x, m: 100 itself is outside the range"),
                          (("x", "0 60, 100 12", "x"), "'x' is not a number"),
@@ -136,13 +136,13 @@ def test_new_refused():
 
 
 def test_new_bad_stand():
-    """n: a stand that there is not is told, not left out in silence."""
+    """n: a missing stand is reported, not dropped silently."""
     screen = fast("key n Enter Enter Enter Enter Enter Enter Enter Enter Ctrl-U\ntype no-such-stand.yaml\nkey Enter\ndump")[0]
     expect_in("no stand 'no-such-stand.yaml'", screen.popup)
 
 
 def test_missing_file():
-    """A file that is not there is said while it is typed; Tab completes a path."""
+    """A missing file is reported while typing; Tab completes a path."""
     with Place() as place:
         place.write("survey/profile-north.csv", "distance,elevation\n0,150\n200,55\n")
         place.write("survey/profile-south.csv", "distance,elevation\n0,150\n200,55\n")
@@ -167,7 +167,7 @@ def test_missing_file():
 
 
 def test_open():
-    """o: a shipped scene from the list, a file by its name, one that there is not."""
+    """o: a shipped scene from the list, a file by its name, a missing one."""
     screens = fast("""wait idle
         key o
         dump
@@ -194,7 +194,7 @@ def test_open():
 
 
 def test_unsaved():
-    """o, n and q ask alike where there is unsaved work: stay, save it and go on, discard it and go on."""
+    """o, n and q ask equally about unsaved work: stay, save and continue, discard and continue."""
     edit = "key 3\nfind title\nset other\n"
     for key, then in (("o", "Open a scene"), ("n", "New scene"), ("q", None)):
         with Place() as place:
@@ -217,7 +217,7 @@ def test_unsaved():
 
 
 def test_stands():
-    """p in view 2 lists one's own stands first, each with stems, diameter of the mean basal area, age and basal area"""
+    """p in view 2 lists the user's stands first, each with stems, diameter of the mean basal area, age and basal area"""
     with Place() as place:
         place.write("mine.yaml", "ceduo: stand/1\nname: mine\nspecies: quercus-cerris\nstools: {per_ha: 1000, spacing_m: 0.4}\n"
                     "shoots: [{per_ha: 3000, dbh_m: 0.1, height_m: 9, age_y: 18}, {per_ha: 200, dbh_m: 0.05, height_m: 5, age_y: 6}]\n"
@@ -233,8 +233,8 @@ def test_stands():
 
 
 def test_new_is_drawn():
-    """n draws the profile as it is typed, turned round where it rises, its steepest stretch marked, then release and face; grounds
-    are explained beside their names"""
+    """n draws the typed profile, reversed if it rises, its steepest stretch marked, then release and face; grounds have
+    explanations next to their names"""
     degrees = round(math.degrees(math.atan(35 / 10)))
     with Place() as place:
         typed, known, ground, counted, taken = place.play("""key n
@@ -267,7 +267,7 @@ def test_new_is_drawn():
 
 
 def test_lines_of_a_profile():
-    """n names the lines of a file that holds several, and takes FILE.csv#LINE"""
+    """n names the lines of a file with several, and accepts FILE.csv#LINE"""
     with Place() as place:
         place.write("two.csv", "layer,distance,elevation\ncrown,0,108\ncrown,60,38\nground,0,90\nground,40,40\nground,60,20\n")
         asked, known, saved = place.play("""key n
@@ -289,7 +289,7 @@ def test_lines_of_a_profile():
 
 
 def test_a_survey_that_asks():
-    """A survey whose slopes have no unit opens a form; the answer gives the stand that its own unit in the head gives"""
+    """A survey whose slopes have no unit opens a form; the answer gives the stand of a head with that unit"""
     rows = "1;400;80;albero;20\n2;400;80;albero;22\n"
     with Place() as place:
         place.write("bare.csv", "saggio;superficie;pendenza;tipo;diametro\n" + rows)
@@ -319,7 +319,7 @@ def test_presets_in_view_3():
 
 
 def test_picker():
-    """Typing leaves what matches, the best first, marks what is there now, and says what a choice does to the lights."""
+    """Typing filters, best match first, marks the current value, and previews the lights of a choice."""
     all_, some, none, took = fast("""key 2
         wait idle
         key p
@@ -344,7 +344,7 @@ def test_picker():
 
 
 def test_preview_is_what_comes():
-    """The lights that a choice is said to have are those that it has once it is taken."""
+    """The previewed lights of a choice equal those after it."""
     for name in ("bare", "simple-coppice", "large-reserves-cut"):
         ahead, after = fast(f"key 2\nwait idle\nkey p\ntype {name}\ndump\nkey Enter\nwait idle\ndump", "wood.yaml")
         found = re.search(r"Contact (\w+).*?free run (\w+).*?energy (\w+).*?about (\d+) per 1000", ahead.popup)
@@ -352,13 +352,13 @@ def test_preview_is_what_comes():
         expect_equal(list(found.groups()[:3]), [lights(after, "braille")[k] for k in ("Contact", "Free run", "Energy")], name)
         expect_near(float(found.group(4)), after.pair("above 250 kJ")[0], 60, f"{name}: of 1000")  # 4 s.e. of 1024 rocks
     keys = "key 5 a\ntype bare\nkey Enter 1 d 5 a\ntype simple-coppice\nwait idle\ndump\nkey Enter\nwait idle\ndump"
-    ahead, after = fast(keys, "wood.yaml")  # beside an option without belts: the new one has those of the first
+    ahead, after = fast(keys, "wood.yaml")  # next to an option without belts: the new one copies the first one's
     found = re.search(r"Contact (\w+).*?free run (\w+).*?energy (\w+)", ahead.popup)
     expect_equal(list(found.groups()), [lights(after, "braille")[k] for k in ("Contact", "Free run", "Energy")], ahead.popup)
 
 
 def test_commands():
-    """: lists every command by what it does; typing finds it, Enter runs it."""
+    """: lists every command by its action; typing filters, Enter runs it."""
     listed, ran = fast("key :\ndump\ntype rotation\nkey Enter\ndump")
     listed.has("Commands", "search: _")
     expect_in("6 rotation", ran.title)
@@ -370,7 +370,7 @@ def test_commands():
 # ---- search, help, counts ----
 
 def test_search():
-    """/ goes to a field by label, value or path, N to the next, and says where nothing is found."""
+    """/ jumps to a field by label, value or path, N to the next, and reports a failed search."""
     screens = fast("""key 3
         key /
         dump
@@ -401,7 +401,7 @@ def test_search():
 
 
 def test_help():
-    """? has every key of the program with what it does, F1 too; the bar has those for always."""
+    """? has every key of the program with its action, F1 too; the bar has the main ones."""
     rows = actions()
     for key in ("?", "F1"):
         tall, closed = fast(f"resize 120 100\nwait idle\nkey {key}\ndump\nkey Esc\ndump")
@@ -420,8 +420,8 @@ def test_help():
 
 
 def test_end():
-    """End goes to the last line of texts, forms and lists, and to the end of a line that is typed; the key after it moves from
-    there, also if nothing was drawn between."""
+    """End goes to the last line of texts, forms and lists, and to the end of typed text; the next key moves from there, also
+    without drawing in between."""
     with Place() as place:
         place.write("many.yaml", FAST + "observed:\n" + "".join(
             f"  - {{name: nr {i}, passed: {{x_m: 60, count: {i}, of: 100}}}}\n" for i in range(1, 90)))
@@ -437,7 +437,7 @@ def test_end():
 
 
 def test_notes_after_the_last_field():
-    """At the end of a form the notes after its last field are seen."""
+    """At the end of a form the notes after its last field are visible."""
     many = ", ".join(f"[{x / 10}, {100 - x / 20}]" for x in range(1500))
     with Place() as place:
         place.write("long.yaml", re.sub(r"vertices_m:.*?(?=controls:)", f"vertices_m: [{many}]\n  segments: [{{rn: 0.3, rt: 0.9}}]\n",
@@ -447,7 +447,7 @@ def test_notes_after_the_last_field():
 
 
 def test_help_field():
-    """? begins with all that is known of the field under the cursor, where the line above the keys has no room for it."""
+    """? begins with the full explanation of the field under the cursor, if the line above the keys is too short."""
     line, helped = fast("key 2\nfind stools.per_ha\ndump\nkey ?\ndump", "paper-site")
     expect(line.note.endswith("…"), line.note)
     wide = fast("resize 300 24\nkey 2\nfind stools.per_ha\ndump", "paper-site")[0]
@@ -457,7 +457,7 @@ def test_help_field():
 
 
 def test_help_scrolls():
-    """The help can be read to its end at 80x24."""
+    """The help scrolls to its end at 80x24."""
     pages = fast("wait idle\nkey ?\ndump\n" + "key PgDn\ndump\n" * 9 + "key g\ndump\nkey q\ndump")
     text = "\n".join(p.text for p in pages[:10])
     for name, word, word2, bar, what in actions():
@@ -468,7 +468,7 @@ def test_help_scrolls():
 
 
 def test_contract_keys():
-    """Every key that was promised is in the table."""
+    """Every documented key is in the table."""
     words = {w for _, word, word2, _, _ in actions() for w in (word, word2)}
     for key in ["Up", "Down", "Left", "Right", *"hjkl", "Tab", "Shift-Tab", *"123456", "Enter", "+", "-", *"adyu", "Ctrl-R",
                 *"nospw", "/", "?", "F1", "q", "F10"]:
@@ -476,7 +476,7 @@ def test_contract_keys():
 
 
 def counts_script(*fields):
-    """Fills the form of the counts for the second belt, and takes four screens: before, filled, done, left by Esc."""
+    """Fill the form of the counts for the second belt, and return four screens: before, filled, done, left by Esc."""
     script = "key 2\nwait idle\nfind forest[1]\ndump\nkey c\n"
     for field in fields:
         script += f"key Ctrl-U\ntype {field}\nkey Tab\n"
@@ -487,7 +487,7 @@ COUNTED = ["400", "40", "100", "250", "7,5", "8", "20", "18", "13"]
 
 
 def test_counts():
-    """c: counts of a plot to hectares: 400 m2 along a slope of 40 degrees are 306.4 m2; sizes of stems are taken too."""
+    """c: counts of a plot to hectares: 400 m2 along a slope of 40 degrees are 306.4 m2; sizes of stems count too."""
     area = 400 * math.cos(math.radians(40))
     for how, per in (("40", 10000 / area), ("0", 25)):
         with Place() as place:
@@ -509,7 +509,7 @@ def test_counts():
 
 
 def test_counts_of_nothing():
-    """c: what was not counted is not there: a plot without stools, one without trees, an empty one."""
+    """c: uncounted stems are missing: a plot without stools, one without trees, an empty one."""
     no_stools = fast(counts_script(*COUNTED[:2], "", "", "", "", "20", "22", "13"))[2]
     expect_equal(no_stools.row("^stools per ha")[-1], "-", "stools")
     expect_in("Shoots on the stools none; a adds one", re.sub(r"\s+", " ", re.sub(r"\n +per ha[^\n]*", "", no_stools.body)))
@@ -520,7 +520,7 @@ def test_counts_of_nothing():
 
 
 def test_counts_refused():
-    """c: what cannot be is refused with a reason, nothing changes; what is unusual is asked once."""
+    """c: impossible counts are refused with a reason, nothing changes; unusual ones need one confirmation."""
     for at, value, part in ((0, "0", "0 itself is outside"), (0, "-4", "-4"), (1, "90", "90 itself is outside"),
                             (1, "x", "'x' is not a number"), (2, "3,5,5", "'3,5,5' is not a number"), (3, "50", "at least one shoot"),
                             (2, "", "belong together"), (3, "nan", "'nan' is not a number"), (4, "0", "0 itself is outside"),
@@ -534,7 +534,7 @@ def test_counts_refused():
 
 
 def test_keys_at_once():
-    """Keys that come all at once do the same as one by one with the screen drawn in between."""
+    """Keys that arrive together act as one by one with a screen between."""
     slow = fast("".join(f"key {k}\ndump\n" for k in ("2", "Down", "p", "End", "Enter")) + "wait idle\nclear\ndump")[-1]
     quick = fast("key 2 Down p End Enter\nwait idle\nclear\ndump")[0]
     expect_equal(quick.text, slow.text, "view 2, the second belt's stand from a preset")
@@ -546,14 +546,14 @@ def test_keys_at_once():
 
 
 def test_drawn_or_not():
-    """Whether a view has been drawn before changes nothing on the screens after it."""
+    """Drawing a view has no effect on later screens."""
     drawn = fast("resize 100 40\nwait idle\nkey 1\ndump\nkey 2\ndump", "wood.yaml")[-1]
     never = fast("resize 100 40\nwait idle\nkey 1\nkey 2\ndump", "wood.yaml")[-1]
     expect_equal(never.text, drawn.text, "view 2 where view 1 was not drawn before")
 
 
 def test_new_is_data():
-    """n: what is typed into a field is that field's value, never more of the file."""
+    """n: text typed into a field is that field's value, never more of the file."""
     for field, text in ((3, "0.5, density_kg_m3: 7000"), (3, "0.5}\\nx: {"), (4, "90, accepted_kJ: 1"), (5, "50}, {x_m: 95"),
                         (2, "talus}, {from_m: 0"), (6, "bare}, {from_m: 91, to_m: 95, stand: bare")):
         script = "wait idle\nkey n\n" + "key Enter\n" * field + f"key Ctrl-U\ntype {text}\n" + "key Enter\n" * (7 - field)
@@ -562,7 +562,7 @@ def test_new_is_data():
 
 
 def test_popup_bar():
-    """The bar has the keys of what lies over the view, and those of the view again once it is closed."""
+    """The bar has the keys of an open popup, and the view's after it."""
     for keys, words in (("p", ("type to search", "Enter choose", "Esc cancel")), ("q", ("a letter", "Enter", "Esc cancel")),
                         ("?", ("Up Down", "any other key closes")), ("n", ("Enter next", "Esc back")),
                         ("w End Enter", ("any other key closes",))):
@@ -576,7 +576,7 @@ def test_popup_bar():
 
 
 def test_more_in_popups():
-    """Help and lists that are longer than their window say on its edge that there is more, below and above."""
+    """Help and lists longer than their window mark more text below and above."""
     for keys in ("?", "p"):
         first, middle, last = fast(f"key 2\nkey {keys}\ndump\nkey PgDn PgDn\ndump\nkey End\ndump")
         first.has("more below").lacks("more above")

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random keys: no crash, no hang, no scene that is lost, nothing written outside the folder.
+"""Random keys: no crash, no hang, no lost scene, nothing written outside the folder.
 
-KEYS=100000 plays so many keys (3000 without it); SEED=7 begins with that seed. What a failure prints plays it again.
+KEYS=100000 sets the number of keys (default 3000); SEED=7 sets the first seed. A failure prints the command to repeat it.
 """
 import os
 import random
@@ -17,9 +17,9 @@ from harness import CEDUO, PATIENCE, PROFILES, ROOT, Failure, Suite, expect  # n
 
 KEYS = int(os.environ.get("KEYS") or 3000)
 SEED = int(os.environ.get("SEED") or 1)
-RUN = 250  # keys of one run of the program
+RUN = 250  # keys per run of the program
 
-# What a save may write. Not other.yaml, which an export may overwrite too once that is confirmed.
+# Files that a save may write. Not other.yaml, which a confirmed export may overwrite.
 OWN = ("fast.yaml", "options.yaml", "wood.yaml", "cuts.yaml", "csv.yaml", "paper-site.yaml", "four-systems.yaml", "scene.yaml")
 CSV = "distance,elevation\n0,100\n20,70\n50,50\n90,35\n130,30\n"
 SCENES = ["fast.yaml", "options.yaml", "wood.yaml", "cuts.yaml", "paper-site", "four-systems", "csv.yaml"]
@@ -37,7 +37,7 @@ def words_of_keys():
 
 
 def random_script(rng, names, keys):
-    """Lines of a script with so many keys. What is typed counts a key for each character."""
+    """Return lines of a script with this many keys. Typed text counts a key per character."""
     lines, left = [], keys
     while left > 0:
         kind = rng.random()
@@ -60,7 +60,7 @@ def random_script(rng, names, keys):
                                      "resize 1 1", "resize 33 7", "dump screen.txt", "dump screen.txt", "dump screen.txt",
                                      "roles roles.txt"]))
             continue
-        # q would end the run at once where nothing is unsaved: it comes at the end
+        # q would end the run if nothing is unsaved: it comes last
         some = [k for k in some if k not in ("q", "F10") or rng.random() < 0.03]
         if some:
             lines.append("key " + " ".join(some))
@@ -99,7 +99,7 @@ def run_once(seed, names):
         except subprocess.TimeoutExpired as late:
             raise Failure(again, "hangs") from late
         err = done.stderr.decode("utf-8", "replace")
-        # A file name that was typed may be no file's: that is said on the screen and no end of the script.
+        # a typed file name may be invalid: the screen reports it, and the script continues
         expect(done.returncode == 0 and err == "", again, f"status {done.returncode}", err[:6000])
         for path in yaml_files(work):
             if before.get(path) == path.read_text():

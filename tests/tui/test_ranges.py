@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""f on every kind of number offers a range whose ends the scene itself accepts."""
+"""f on every kind of number proposes a range whose ends are valid."""
 import re
 import subprocess
 import sys
@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, home  # noqa: E402
 from harness import CEDUO, DONE, PATIENCE, expect, expect_equal, run_all  # noqa: E402
 
-# view, path, of the file's unit in one that is shown
+# view, path, unit of the file in a displayed unit
 FIELDS = [(1, "forest[0].from_m", 1), (1, "forest[0].to_m", 1), (1, "forest[1].from_m", 1), (1, "forest[1].to_m", 1),
           (1, "controls[0].x_m", 1), (1, "controls[1].x_m", 1), (1, "controls[1].accepted_kJ", 1),
           (1, "slope.segments[0].rn", 1), (1, "slope.segments[1].rt", 1), (1, "slope.segments[1].friction", 1),
@@ -29,7 +29,7 @@ def accepts(place, scene, path, value):
 
 
 def test_ranges():
-    """Both ends of the range that f offers are values of the scene, and lie around the value that is there."""
+    """Both ends of the proposed range of f are valid values, and contain the current one."""
     with Place() as place:
         script = "".join(f"key {view}\nfind {path}\nkey f\ndump\nkey Esc\n" for view, path, _ in FIELDS)
         screens = place.play(script, "fast.yaml")
@@ -45,7 +45,7 @@ def test_ranges():
 
 
 def test_ranges_of_places():
-    """Where the profile begins at 100 m the range of a place ends where the profile does, at 200 m."""
+    """If the profile begins at 100 m the range of a place ends at the profile's end, at 200 m."""
     moved = FAST
     for old, new in (("[[0, 80], [60, 30], [100, 0]]", "[[100, 80], [160, 30], [200, 0]]"), ("x_m: 60", "x_m: 160"), ("x_m: 80", "x_m: 180"),
                      ("from_m: 5\n", "from_m: 105\n"), ("to_m: 45\n", "to_m: 145\n"), ("from_m: 50\n", "from_m: 150\n"), ("to_m: 80\n", "to_m: 180\n")):

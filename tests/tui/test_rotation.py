@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow threads
-"""The years between two cuts in the terminal program (view 6) and as a picture, and the key that looks for a value."""
+"""The years between two cuts in the terminal program (view 6) and as a picture, and the search key."""
 import re
 import sys
 import unicodedata
@@ -46,9 +46,9 @@ rocks_per_year: 2
 years: {first: 0, last: 12}
 simulation: {rocks: 1000, contact_model: stems}
 """
-ROTATION = WOOD.replace("years: {first: 0, last: 12}\n", "")  # the years that are shown without being asked for
+ROTATION = WOOD.replace("years: {first: 0, last: 12}\n", "")  # the default years
 INDEX = WOOD.replace("contact_model: stems", "contact_model: index")
-# 60 reserves of 20 cm and nothing else, and another way to treat it.
+# 60 reserves of 20 cm only, and another treatment
 RESERVES = WOOD[:WOOD.index("forest:")] + """\
 options:
   - name: reserves
@@ -74,7 +74,7 @@ simulation: {rocks: 1000, contact_model: index}
 
 
 class Place(Folder):
-    """A folder with the scenes in it."""
+    """A folder with the scenes."""
 
     def __enter__(self):
         super().__enter__()
@@ -86,7 +86,7 @@ class Place(Folder):
         return play.play(self.path, script, scene, **options)
 
     def years(self, scene, last):
-        """The first option's years as the batch gives them."""
+        """Return the first option's years from the batch."""
         return result("--years", f"0:{last}", "-n", play.ROCKS, self.path / scene)["options"][0]
 
 
@@ -96,7 +96,7 @@ def shown(script, scene="index.yaml", **options):
 
 
 def marks(screen, light, signs="✔✘?"):
-    """Columns and signs of a row of lights."""
+    """Return columns and signs of a row of lights."""
     for line in screen.body.split("\n"):
         if re.match(f"{light} ", line):
             return [(i, c) for i, c in enumerate(line) if i > 0 and c in signs]
@@ -112,14 +112,14 @@ def flat(screen):
 
 
 def year_said(screen):
-    """(year, cut, ADC) of the year under the cursor, in the column on the right."""
+    """Return (year, cut, ADC) of the year under the cursor, in the column on the right."""
     found = re.search(r"^Year (\d+)(, just cut)?$.*?^ADC m +([\d.]+)", screen.now, re.M | re.S)
     expect(found, "no year in the column of the", screen)
     return int(found.group(1)), bool(found.group(2)), found.group(3)
 
 
 def strips(screen):
-    """Which of the two strips there are, by their captions."""
+    """Return the visible ones of the two strips, by their captions."""
     lines = screen.body.split("\n")
     return [any(part in line for line in lines) for part in ("ADC of the worst belt, m", "of 1000 released with")]
 
@@ -128,7 +128,7 @@ def strips(screen):
 
 
 def test_strips():
-    """View 6: both strips where there is room, otherwise one; cuts, lights, words and form in their places"""
+    """View 6: both strips if they fit, otherwise one; cuts, lights, words and form in their places"""
     script = ["wait idle", "key 6", "wait idle"]
     sizes = [(80, 24), (200, 50), (60, 20), (120, 40)]
     for width, height in sizes:
@@ -166,7 +166,7 @@ def test_strips():
 
 
 def test_window():
-    """View 6 shows the years ahead, from next year on and 20 at least; they are fields, and the column on the right follows the year"""
+    """View 6 shows at least 20 coming years, from the next one on; they are fields, and the column follows the year"""
     screens = shown("""wait idle
         resize 200 50
         key 6
@@ -203,7 +203,7 @@ def test_window():
 
 
 def test_thin_shoots():
-    """Shoots of a year count for no light; some years later thin ones pass the test of contact alone: from 8 cm on it fails, and both are said"""
+    """Young shoots affect no light; later thin ones pass contact alone: from 8 cm on it fails, and both are reported"""
     screens = shown("wait idle\nresize 120 40\nkey 6\nwait idle\nkey Tab l l l l l l l l l l l\ndump\nresize 80 24\ndump", "rotation")
     option = result("--years", "-n", 100, "rotation")["options"][0]
     year, just_cut = option["years"][11], option["years"][1]
@@ -221,13 +221,13 @@ def test_thin_shoots():
 
 
 def test_small_window():
-    """View 6 at 60 x 20 shows its picture beside the form, not only alone"""
+    """View 6 at 60 x 20 shows its picture next to the form, not only alone"""
     screen = shown("wait idle\nkey 6\nwait idle\nresize 60 20\ndump")[0]
     expect("too narrow" not in screen.body, "no picture in the", screen)
 
 
 def test_no_stems():
-    """Where no stem stands view 6 says so instead of a distance between hits, and view 4 of a belt; 100 % is whole"""
+    """Without stems view 6 says so instead of a distance between hits, and view 4 for a belt; 100 % has no decimals"""
     with Place() as place:
         place.write("bare.yaml", INDEX[:INDEX.index("forest:")] + "forest: [{from_m: 2, to_m: 38, stand: {system: bare}}]\n")
         years, belts = place.play("wait idle\nkey 6\nwait idle\nresize 80 24\nkey Tab\ndump\nkey Tab 4\ndump",
@@ -238,7 +238,7 @@ def test_no_stems():
 
 
 def test_figures():
-    """View 6 tells what --years tells: lights year by year, cuts below their mark, the years together"""
+    """View 6 equals --years: lights year by year, cuts below their mark, the years together"""
     with Place() as place:
         screens = place.play("wait idle\nkey 6\nwait idle\nresize 200 50\nkey Tab\ndump\nkey l l l\ndump", "wood.yaml")
         option = place.years("wood.yaml", 12)
@@ -266,7 +266,7 @@ def test_figures():
 
 
 def test_cursor():
-    """After Tab, left and right go from year to year, Home and End to the first and the last, and not beyond"""
+    """After Tab, left and right change the year, Home and End go to the first and the last"""
     keys = ["", "l", "Right", "Right", "h", "End", "l", "Left", "Home", "Left", "G", "g"]
     years = [0, 1, 2, 3, 2, 12, 12, 11, 0, 0, 12, 0]
     script = ["wait idle", "key 6", "wait idle", "resize 120 40", "key Tab"]
@@ -284,7 +284,7 @@ def test_cursor():
 
 
 def test_edits():
-    """cut_year and rotation_years move the cuts and the picture at once; u takes it back, s saves it with its comments"""
+    """cut_year and rotation_years move the cuts and the picture at once; u undoes it, s saves it with its comments"""
     with Place() as place:
         screens = place.play("""wait idle
             resize 200 50
@@ -324,7 +324,7 @@ def test_edits():
 
 
 def test_edit_stay():
-    """What stays after a cut is a list of numbers in the form; more trees, a better year of the cut"""
+    """Trees retained after a cut are a list of numbers in the form; more trees make the year of the cut better"""
     screens = shown("""wait idle
         resize 200 50
         key 6
@@ -344,7 +344,7 @@ def test_edit_stay():
 
 
 def test_live_rate():
-    """rocks_per_year is live: what is expected a year follows the edit"""
+    """rocks_per_year is live: the expected number per year follows the edit"""
     screens = shown("""wait idle
         resize 200 50
         key 6
@@ -359,7 +359,7 @@ def test_live_rate():
 
 
 def test_live_threshold():
-    """An undone threshold changes the lights of the years at once"""
+    """Undoing a threshold changes the lights of the years at once"""
     screens = shown("""wait idle
         resize 200 50
         key 3
@@ -376,7 +376,7 @@ def test_live_threshold():
 
 
 def test_more_controls():
-    """Controls added in another view: view 6 shows no figures of places that its years do not have"""
+    """Controls added in another view: view 6 has no figures of places that its years lack"""
     with Place() as place:
         screens = place.play("""wait idle
             key 6
@@ -396,7 +396,7 @@ def test_more_controls():
 
 
 def test_even_marks():
-    """The lights of the years stand at even distances at 80x24 (the picture alone), 120x40 and 200x50"""
+    """The lights of the years are evenly spaced at 80x24 (the picture alone), 120x40 and 200x50"""
     for screen in shown("wait idle\nkey 6\nwait idle\nkey Tab\ndump\nkey Tab\nresize 120 40\ndump\nresize 200 50\ndump", "reserves.yaml"):
         for light in "CFE":
             at = [column for column, _ in marks(screen, light)]
@@ -410,7 +410,7 @@ def test_search_column():
 
 
 def test_options():
-    """Each option has its years; ] goes to the next one's"""
+    """Each option has its years; ] shows the next one's"""
     screens = shown("""wait idle
         resize 200 50
         key 6
@@ -430,7 +430,7 @@ def test_options():
 
 
 def test_no_forest():
-    """Without forest view 6 still stands, and its form asks for a belt"""
+    """Without forest view 6 still works, and its form asks for a belt"""
     with Place() as place:
         place.write("none.yaml", INDEX[:INDEX.index("forest:")] + "forest: []\nsimulation: {rocks: 1000}\n")
         screens = place.play("wait idle\nkey 6\nwait idle\ndump\nkey Tab\nkey l l\ndump\nresize 200 50\ndump", "none.yaml")
@@ -441,7 +441,7 @@ def test_no_forest():
 
 
 def test_index_view():
-    """With the contact model index the lower strip shows what stems could take, and the energy is unknown"""
+    """With the contact model index the lower strip shows the possible energy of stems, and the energy is unknown"""
     screen = shown("wait idle\nresize 200 50\nkey 6\nwait idle\ndump")[0]
     screen.has("stems could take, kJ per 100 m (Eq. 4)")
     expect_equal({c for _, c in marks(screen, "E")}, {"?"}, "energy")
@@ -457,7 +457,7 @@ def test_charsets():
         expect_equal(len(columns_of_cuts(screen, "v" if charset == "ascii" else "▼")), 2, f"{charset}: cuts")
 
 
-# ---- the key that looks for a value ----
+# ---- the search key ----
 
 FIND = """key 2
     find trees[0].per_ha
@@ -466,7 +466,7 @@ FIND = """key 2
 
 
 def test_find():
-    """f on a number finds the value for a goal and puts it there: 379 reserves; u takes it back"""
+    """f on a number finds the value for a goal and sets it: 379 reserves; u undoes it"""
     with Place() as place:
         screens = place.play("wait idle\n" + FIND + """dump
             key Enter Enter Enter Enter Enter
@@ -496,7 +496,7 @@ def test_find():
 
 
 def test_find_other_goals():
-    """f with other goals and ranges, in another option, and with rocks: what the command line finds"""
+    """f with other goals and ranges, in another option, and with rocks: equal to the command line"""
     with Place() as place:
         for scene, option, goal, lo, hi in (("reserves", "more", "adc=20", 100, 1000), ("reserves", "reserves", "free-run", 1, 3000),
                                             ("wood", None, "exceed=0.4", 10, 5000), ("wood", None, "energy=8", 10, 5000)):
@@ -512,8 +512,8 @@ def test_find_other_goals():
 
 
 def test_find_in_list():
-    """f on trees that stay: of several numbers it asks which, by its digit; it finds what the command line does, beside what the
-    law and the scene ask for; of one number nothing is asked"""
+    """f on retained trees: of several numbers it asks for one, by its digit; it finds the command line's value, and shows the
+    legal minimum and the scene's; with one number it does not ask"""
     with Place() as place:
         place.write("ruled.yaml", WOOD.replace("rocks_per_year", "rules: marche\nminimum: {reserves_per_ha: 70}\nrocks_per_year"))
         for scene, keys, path, which in (("ruled", "key 2\n", "forest[0].stand.cutting.stay_per_ha[1]", True),
@@ -535,8 +535,8 @@ def test_find_in_list():
 
 
 def test_find_sure():
-    """f asked for how many of 100 cases says the sure value beside the plain one, which the field has, as --sure does: with
-    stems of 15 to 25 cm those of 16 cm, 10000 / 30 m / (0.68 + 0.16) m; 0, 101 and words are refused, nothing is no question"""
+    """f with a number of 100 cases gives the sure value next to the plain one, which the field gets, like --sure: with stems of
+    15 to 25 cm those of 16 cm, 10000 / 30 m / (0.68 + 0.16) m; 0, 101 and words are refused, empty asks nothing"""
     uncertainty = "uncertainty:\n  - {path: 'options[0].forest[0].stand.trees[0].dbh_m', lo: 0.15, hi: 0.25}\n"
     for sure, words in (("90", "in 90 % of plausible cases: 397"), ("0", "0 itself is outside"), ("101", "101 is above 100"),
                         ("most", "'most' is not a number"), ("", "")):
@@ -552,7 +552,7 @@ def test_find_sure():
 
 
 def test_find_nothing():
-    """f where no value reaches the goal: it says so with the nearest, and the field stays"""
+    """f without a passing value: a message with the nearest, and the field stays"""
     screen = shown(FIND + "key Enter Enter Enter Enter\nkey Ctrl-U\ntype 300\nkey Enter\ndump", "reserves.yaml")[0]
     note = re.sub(r"\s+", " ", screen.note)
     expect("no value from 6 to 300" in note and "nearest: 300" in note, note)
@@ -560,7 +560,7 @@ def test_find_nothing():
 
 
 def test_find_all():
-    """f where every value of the range reaches the goal: it says so, and the field stays"""
+    """f with only passing values: a message, and the field stays"""
     for word, value in (("forest[1]", "0.5"), ("forest[0]", "0.5")):
         screen, undone = shown(f"key 2\nfind {word}\nfind spacing_m\nkey f Enter Enter Enter Enter Enter\ndump\nkey u\ndump", "paper-site")
         note = re.sub(r"\s+", " ", screen.note)
@@ -587,7 +587,7 @@ def test_find_refused():
 
 
 def test_find_where():
-    """f wants a number under the cursor: on words it says so, on a rotation or a length it asks"""
+    """f needs a number under the cursor: on words a message, on a rotation or a length the question"""
     screens = shown("key 2\nfind species\nkey f\ndump\nclear\nkey 6\nfind rotation_years\nkey f\ndump\nkey Esc\n"
                     "find from_m\nkey l l\nkey f\ndump\nkey Esc\nkey 3\nfind diameter_m\nkey f\ndump\nkey Esc\nkey 4\nkey f\ndump")
     expect_in("put the cursor on a number first", screens[0].note)
@@ -597,7 +597,7 @@ def test_find_where():
 
 
 def test_find_invalid():
-    """f over values that a scene may not have: the reason is said, the scene stays as it was"""
+    """f over invalid values: the reason is reported, the scene stays unchanged"""
     screens = shown(FIND + "key Enter Enter Enter\nkey Ctrl-U\ntype -5\nkey Enter Enter\ndump\nkey Esc Esc Esc Esc Esc\nwait idle\ndump", "reserves.yaml")
     expect_in("values from: -5 is below 0", re.sub(r"\s+", " ", screens[0].popup + " " + screens[0].note))
     expect_equal(screens[1].row(r"^1 +60")[:2], ["1", "60"])
@@ -616,7 +616,7 @@ def picture(place, scene, *arguments):
 
 
 def test_plot():
-    """--plot rotation: any size and charset, as many lines as asked, none wider; with years of one's own"""
+    """--plot rotation: any size and charset, the requested lines, none wider; with given years"""
     with Place() as place:
         for size in ("80x24", "200x50", "60x20", "24x9", "20x6", "300x100"):
             for charset in ("braille", "block", "ascii"):
@@ -640,7 +640,7 @@ def test_plot():
 
 
 def test_plot_options():
-    """--plot rotation: a picture for each option, or for those asked for"""
+    """--plot rotation: a picture per option, or for the selected ones"""
     with Place() as place:
         text = picture(place, "reserves.yaml")
         expect_equal(re.findall(r"^(.*): year by year", text, re.M), ["reserves", "more"])
@@ -653,7 +653,7 @@ def test_plot_options():
 
 
 def test_plot_figures():
-    """--plot rotation: a light a year as --years says, and the cuts stand over their years"""
+    """--plot rotation: a light per year as in --years, and cuts above their years"""
     with Place() as place:
         lines = picture(place, "wood.yaml", "--size", "160x40").split("\n")
         years = result("--years", "0:12", "-n", 1000, place.path / "wood.yaml")["options"][0]["years"]
@@ -665,7 +665,7 @@ def test_plot_figures():
 
 
 def test_plot_cuts():
-    """--plot rotation: where cuts follow each other closely their marks do not cut words to pieces"""
+    """--plot rotation: frequent cuts do not break words with their marks"""
     with Place() as place:
         for rotation in (1, 2, 3, 5):
             text = picture(place, "index.yaml", "-s", f"forest[0].stand.cutting.rotation_years={rotation}", "--years", "0:20")

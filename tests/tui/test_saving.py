@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Saving and exporting in the terminal program: under another name, where it fails, and what is said of comments and copies."""
+"""Saving and exporting in the terminal program: under another name, failures, and messages about comments and copies."""
 import json
 import os
 import re
@@ -18,12 +18,12 @@ STUCK = "stuck.yaml"
 
 
 def stools(per_ha):
-    """The fast scene with so many stools in its upper wood."""
+    """Return the fast scene with n stools in its upper forest."""
     return FAST.replace("per_ha: 3000", f"per_ha: {per_ha}")
 
 
 def test_save_as():
-    """S saves under another name, which the scene has from then on; the file of before stays as it was."""
+    """S saves under another name, which the scene keeps; the former file stays unchanged."""
     with Place() as place:
         asked, saved, again = place.play(EDIT + "key S\ndump\nkey Ctrl-U\ntype other.yaml\nkey Enter\ndump\n"
                                          "find stools.per_ha\nset 999\nkey s\ndump")
@@ -36,7 +36,7 @@ def test_save_as():
 
 
 def test_ending():
-    """A name without an ending gets .yaml; one with an ending, and that of a file that is there, stay as they are."""
+    """A name without an ending gets .yaml; one with an ending, and an existing file's, stay as they are."""
     with Place() as place:
         for typed, name in (("bosco", "bosco.yaml"), ("b.2026/bosco", "b.2026/bosco.yaml"), (".bosco", ".bosco.yaml"),
                             ("bosco.yml", "bosco.yml"), ("bosco.txt", "bosco.txt")):
@@ -54,7 +54,7 @@ def test_ending():
 
 
 def test_save_as_same():
-    """S with the scene's own name saves as s does, but not over a file that has changed since."""
+    """S with the scene's own name saves like s, but does not overwrite a changed file."""
     with Place() as place:
         place.play(EDIT + "key S Enter")
         expect_equal(place.text("fast.yaml"), stools(1234), "the file")
@@ -64,7 +64,7 @@ def test_save_as_same():
 
 
 def test_folder_kept():
-    """S offers the file with its folder: a name changed at its end stays beside it."""
+    """S proposes the file with its folder: a name changed at its end stays in it."""
     with Place() as place:
         (place.path / "sub").mkdir()
         place.write("sub/fast.yaml", FAST)
@@ -75,7 +75,7 @@ def test_folder_kept():
 
 
 def test_references():
-    """S into another folder keeps every file that the scene refers to, and so does each s after it."""
+    """S into another folder keeps every reference of the scene, and so does each later s."""
     with Place() as place:
         start = FAST.index("    stand:\n      name: upper")
         wood = FAST[start:FAST.index("  - from_m: 50")]
@@ -91,7 +91,7 @@ def test_references():
 
 
 def stuck(place):
-    """STUCK can be read, but the file that would take the place of what it leads to has too long a path, for root too."""
+    """STUCK is readable, but the path of its replacement is too long, for root too."""
     deep = place.path.resolve()
     while (rest := 4090 - len("/fast.yaml") - len(str(deep))) > 0:
         deep = deep / ("n" * (100 if rest > 202 else rest - 1))
@@ -99,7 +99,7 @@ def stuck(place):
 
 
 def test_failed():
-    """Where a file cannot be written the reason is said and another name asked for; with that one all is well."""
+    """If a file cannot be written the reason is reported and another name requested; with that one it works."""
     with Place() as place:
         stuck(place)
         failed, stayed, saved = place.play(EDIT + "key s\ndump\nkey Esc\ndump\nkey s Ctrl-U\ntype mine.yaml\nkey Enter\ndump",
@@ -113,7 +113,7 @@ def test_failed():
 
 
 def test_fifo_name():
-    """A FIFO under the name given is asked about like any file, and not waited for."""
+    """An existing FIFO needs a confirmation like any file, and is not awaited."""
     with Place() as place:
         os.mkfifo(place.path / "fifo")
         asked = place.play(EDIT + "key S Ctrl-U\ntype fifo\nkey Enter\ndump\nkey Esc w Enter Ctrl-U\ntype fifo\nkey Enter\ndump")
@@ -122,7 +122,7 @@ def test_fifo_name():
 
 
 def test_failed_quit():
-    """'save and quit' where the file cannot be written quits once it is saved under another name, and not before."""
+    """'save and quit' with an unwritable file quits only after saving under another name."""
     with Place() as place:
         stuck(place)
         failed = place.play(EDIT + "key q Down Enter\ndump\nkey Esc\ndump\nkey S Ctrl-U\ntype a.yaml\nkey Enter\ndump", STUCK)
@@ -135,7 +135,7 @@ def test_failed_quit():
 
 
 def test_anew():
-    """Only where an old file lies beside the new one is it named; of a scene that was copied it says what is missing."""
+    """An old file is named only if it is next to the new one; for a copied scene the missing part is reported."""
     with Place() as place:
         saved = place.play("key 1\nfind stand\nkey a\nkey s Ctrl-U\ntype my.yaml\nkey Enter\ndump", "paper-site")[0]
         expect("# Test site" not in place.text("my.yaml"), "this test's own scene keeps its comments")
@@ -149,7 +149,7 @@ def test_anew():
 
 
 def test_save():
-    """s writes the values that changed and leaves every comment and every other line."""
+    """s writes the changed values and keeps every comment and every other line."""
     with Place() as place:
         saved, again = place.play("""key 2
             find stools.per_ha
@@ -170,7 +170,7 @@ def test_save():
 
 
 def test_save_list():
-    """s after an item came or went: valid, the comments kept where they can be, otherwise in a .bak."""
+    """s after adding or deleting an item: valid, comments kept if possible, otherwise in a .bak."""
     for keys in ("find trees[0]\nkey y", "find trees[0]\nkey d", "find forest[0]\nkey d", "find shoots[1]\nkey d d"):
         with Place() as place:
             saved = place.play(f"key 2\n{keys}\nclear\nwait idle\nkey s\ndump\nclear\ndump")
@@ -195,7 +195,7 @@ def test_save_nothing():
 
 
 def test_save_shipped():
-    """A scene of the program is never written over: s asks for a name."""
+    """A shipped scene is never overwritten: s asks for a name."""
     shipped = PROFILES / "scenes/paper-site.yaml"
     before, stamp = shipped.read_bytes(), shipped.stat().st_mtime_ns
     with Place() as place:
@@ -231,7 +231,7 @@ def test_save_shipped():
 
 
 def test_save_as_exists():
-    """Save as over another file asks once more; an empty name and a folder that is not there are refused."""
+    """Save as over another file needs a confirmation; an empty name and a missing folder are refused."""
     with Place() as place:
         place.write("there.yaml", "mine\n")
         screens = place.play("""key 2
@@ -259,11 +259,11 @@ def test_save_as_exists():
 
 
 def test_changed_on_disk():
-    """s on a file that has changed on disk asks: never mind, another name, or over it."""
+    """s on a file changed on disk asks: cancel, another name, or overwrite."""
     for keys, mine in (("key Enter", False), ("key Esc", False), ("key End Enter", True),
                        ("key Down Enter Ctrl-U\ntype mine.yaml\nkey Enter", False)):
         with Place() as place:
-            # The script itself writes other bytes into the file that is open.
+            # The script itself writes other bytes into the open file.
             asked = place.play(f"key 2\nfind stools.per_ha\nset 1234\ndump fast.yaml\nkey s\ndump\n{keys}")[0]
             asked.has("The file has changed on disk since it was read")
             now = place.text("fast.yaml")
@@ -277,7 +277,7 @@ def test_changed_on_disk():
 
 
 def test_read_only():
-    """A file that cannot be written: the reason is said, the work stays unsaved, the file as it was."""
+    """An unwritable file: the reason is reported, the work stays unsaved, the file unchanged."""
     if os.geteuid() == 0:
         raise Skip("root may write everywhere")
     with Place() as place:
@@ -291,7 +291,7 @@ def test_read_only():
 
 
 def test_quit():
-    """q ends at once where nothing is unsaved, otherwise it asks: stay, save, lose."""
+    """q ends at once if nothing is unsaved, otherwise it asks: stay, save, discard."""
     with Place() as place:
         run_script(place.path, "key q\ndump late.txt\n", "fast.yaml")
         expect("late.txt" not in place.names(), "still there after q")
@@ -314,7 +314,7 @@ def test_quit():
 
 
 def test_save_as_then_quit():
-    """'save and quit' on a shipped scene quits once the name is given."""
+    """'save and quit' on a shipped scene quits after the name is given."""
     with Place() as place:
         edit = "key 2\nkey /\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
         run_script(place.path, edit + "key q Down Enter Enter Enter\ndump late.txt\n", "paper-site")
@@ -325,7 +325,7 @@ def test_save_as_then_quit():
 # ---- export ----
 
 def test_export():
-    """w: the page, the whole page, screen, CSV and JSON in files; over an existing one it asks."""
+    """w: the page, the whole page, screen, CSV and JSON in files; an existing one needs a confirmation."""
     with Place() as place:
         screens = place.play("""wait idle
             dump
@@ -362,7 +362,7 @@ def test_export():
         for part in ("fast", "thick", "thin", "none left", "At 80 m"):
             expect_in(part, whole, "the whole page")
         expect(page.count("\n") < whole.count("\n"), "the page is the short one", page, whole)
-        written = place.text("ceduo-screen.txt").replace("computing,", "finished,")  # w asks for what the page would say, too
+        written = place.text("ceduo-screen.txt").replace("computing,", "finished,")  # w also computes the page's figures
         old, new = screens[0].text.split("\n"), written.split("\n")
         expect(re.match(r" road \(80 m\): ✔ YES so far, also without forest: 0 of 1000 +uncertainty \d+ %$", new[1]), "the answer until that is computed", new[1])
         expect_equal(new[:1] + new[2:], old[:1] + old[2:], "the rest of the screen as a file")
@@ -377,7 +377,7 @@ def test_export():
 
 
 def test_report_head():
-    """A report asks once for its head: lines may stay empty, and what is typed is kept in the scene and stands on the page."""
+    """A report asks once for its head: lines may be empty, and the entries are kept in the scene and printed."""
     days = [time.strftime("%Y-%m-%d")]  # two where midnight passes
     with Place() as place:
         screens = place.play("""
@@ -425,7 +425,7 @@ forest: [{from_m: 10, to_m: 200, stand: simple-coppice}]
 
 
 def test_export_nothing():
-    """w: a report of a scene in which nothing arrives says nothing of how sure that is, though it is known"""
+    """w: a report of a scene without arrivals prints no uncertainty, although it is known"""
     with Place() as place:
         place.write("far.yaml", NOTHING)
         place.play("wait idle\nkey w Down Down Down Down Down Enter Enter Enter Enter Enter Enter Enter\nwait idle\nkey Enter",
@@ -436,7 +436,7 @@ def test_export_nothing():
 
 
 def test_export_command():
-    """w: the batch command that is shown gives the same figures."""
+    """w: the shown batch command gives equal figures."""
     with Place() as place:
         screen, command = place.play("wait idle\ndump\nkey w End Enter\ndump", "paper-site")
         found = re.search(r"ceduo --batch -n (\d+) ", command.popup)
@@ -450,7 +450,7 @@ def test_export_command():
 
 
 def test_export_rocks():
-    """w: the command follows the figures on the screen: none yet, then as many rocks as they have."""
+    """w: the command follows the figures on the screen: first none, then their number of rocks."""
     none, last, screen = fast("key w End Enter\ndump\nwait idle\ndump\nkey Esc\ndump", "wood.yaml")
     none.has("ceduo --batch -n 1000 ", "no figures yet", "number of rocks in the scene")
     rocks = int(screen.figure("finished,"))
@@ -458,7 +458,7 @@ def test_export_rocks():
 
 
 def test_export_unsaved():
-    """w: with unsaved work the command says that the file must be saved first."""
+    """w: with unsaved work the command asks to save first."""
     screen = fast("key 2\nfind stools.per_ha\nset 9\nwait idle\nkey w End Enter\ndump")[0]
     screen.has("ceduo --batch", "unsaved changes")
 

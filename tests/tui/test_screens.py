@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: threads
-"""The screens of the terminal program, from scripts and without any terminal: what stands on them in every size, and the
-small things of a script."""
+"""The screens of the terminal program, from scripts without a terminal: their content in every size, and details of scripts."""
 import re
 import sys
 from pathlib import Path
@@ -29,8 +28,8 @@ _seen = {}
 
 
 def scene_for(folder, scene):
-    """The name of a copy of a shipped scene, maybe computed by the index alone. Nothing is in doubt: that takes long, and these views
-    do not show it; test_uncertainty.py does."""
+    """Return the name of a copy of a shipped scene, perhaps computed by the index alone. Without uncertainty, which is slow,
+    and which these views do not show; test_uncertainty.py does."""
     name = scene.removesuffix(BY_INDEX)
     text = (PROFILES / f"scenes/{name}.yaml").read_text()
     if name != scene:
@@ -42,7 +41,7 @@ def scene_for(folder, scene):
 
 
 def views_of(scene, charset):
-    """The views in every size, played once for all charsets; but the one of the years, which takes long."""
+    """Return the views in every size, played once for all charsets, except the slow one of the years."""
     if scene not in _seen:
         script = ["wait idle"]
         for _ in CHARSETS:
@@ -58,7 +57,7 @@ def views_of(scene, charset):
 
 
 def lights(screen, charset):
-    """The tests in the column, with the signs of the charset."""
+    """Return the tests in the column, with the signs of the charset."""
     found = screen.lights()
     for name, word in found.items():
         expect(re.search(rf" {re.escape(SIGNS[word][charset])}[✔✘+x?]?$", screen.now, re.M), f"the sign of {name}: {word}", screen)
@@ -85,7 +84,7 @@ def check_frame(screen, view, scene, charset):
         line = screen.lines[y].ljust(screen.width)
         expect(line[at] == wall and line[at - 1] == line[at + 1] == " ",
                f"line {y + 1}: something reaches over the wall between view and figures: {line!r}", screen)
-    note = screen.lines[screen.height - 3]  # a second line of what explains the field; empty where one is enough
+    note = screen.lines[screen.height - 3]  # second line of the field's explanation; empty if one is enough
     expect(note == "" or len(note) + len(screen.lines[-2]) >= screen.width - 10, "a line of distance is not empty", screen)
     if charset == "ascii":
         expect(screen.text.isascii(), "not pure ASCII:", ascii(screen.text))
@@ -107,7 +106,7 @@ def check_now(screen, scene, charset):
         expect(re.search(pattern, now, re.M), f"nothing like {pattern!r} in the column on the right:", now)
     found = lights(screen, charset)
     expect_equal(found, {"Contact": "passes", "Free run": "passes", "Energy": "unknown" if by_index else "FAILS"}, "lights")
-    ahead = "passes" if "paper-site" in scene else "FAILS"  # that is never cut; the simple coppice is in the first year, to 60 reserves
+    ahead = "passes" if "paper-site" in scene else "FAILS"  # never cut, and cut in the first year
     expect_equal({name: later for name, (_, later) in screen.lights_ahead().items()},
                  {"Contact": ahead, "Free run": ahead, "Energy": "unknown" if by_index else "FAILS"}, "in the worst year")
     for pattern in (r"^stems stop +\d+ +0$", r"^at rest +\d+ +\d+$"):
@@ -124,7 +123,7 @@ def check_now(screen, scene, charset):
 
 
 def check_verdict(screen, by_index, charset):
-    """Line 2 says the answer of the option whose figures stand beside, with its sign; nothing of it is cut."""
+    """Expect line 2 to have the answer of the shown option, with its sign, uncut."""
     line = screen.verdict.strip()
     if by_index:
         expect(re.search(r"by the index [\d.]+ of 113 kJ remain", line), line)
@@ -136,7 +135,7 @@ def check_verdict(screen, by_index, charset):
 
 
 def check_pairs(screen):
-    """Through the wood no more arrive, and with no more energy, than without it; the energy light goes by the share."""
+    """Expect no more arrivals, and no more energy, with forest than without; the energy light follows the share."""
     for name in ("arrive", "above 50 kJ", "mean kJ", "95 % below kJ", *["95 % below m"] * (screen.height > 24)):
         wood, bare = screen.pair(name)
         expect(wood < bare, f"{name}: {wood} through the wood, {bare} without", screen.now)
@@ -171,8 +170,8 @@ HEADS = ("today", "mean", "kJ/100 m", "range", "ADC m", "worst(?: ADC m)?", "fai
 
 
 def compared(screen):
-    """The table of view 5: (name, {head: cell}); best: the word beside the mean."""
-    beside = 84 if screen.width - screen.side - 2 >= 128 else None  # the picture of the options stands behind that
+    """Return the table of view 5: (name, {head: cell}); best: the word next to the mean."""
+    beside = 84 if screen.width - screen.side - 2 >= 128 else None  # followed by the picture of the options
     lines = [line[:beside].rstrip() for line in screen.body.split("\n")]
     at = next(i for i, line in enumerate(lines) if re.search(r"(today|ADC m) .*(fail|worst|m[³3]/y|C F)", line))
     heads = [(m.group(0).replace("m3", "m³"), m.end()) for m in re.finditer("|".join(HEADS), lines[at])]
@@ -193,12 +192,12 @@ def compared(screen):
 
 
 def compared_lights(screen):
-    """The signs of each option's line: energy, contact, free run."""
+    """Return the signs of each option's line: energy, contact, free run."""
     return [cells.get("E C F", cells.get("C F", "")).replace(" ", "") for _, cells in compared(screen)]
 
 
 def check_results(screen, by_index):
-    """Without scrolling: the ADC of each belt with its check, and what arrives with forest and without."""
+    """Expect without scrolling: the ADC of each belt with its check, and arrivals with and without forest."""
     belts = re.findall(r"(?:ADS \d|simple copp.*?) .*?([\d.]+) +[✔+]", screen.body)
     expect(belts and all(float(adc) < 30 for adc in belts), "the ADC of each belt", screen)
     wide = screen.width >= 110
@@ -278,7 +277,7 @@ height, m            0"""
 
 
 def test_golden():
-    """The forms of stand and rock at 80x24 stand as they always stood."""
+    """The forms of stand and rock at 80x24 are unchanged."""
     screens = views_of("paper-site", "braille")
     body = "\n".join(x for x in screens[(80, 24), "stand"].body.split("\n") if "per ha   diam. cm" not in x)
     expect(body.startswith(GOLDEN_STAND), "wanted", GOLDEN_STAND, "found", body)
@@ -286,7 +285,7 @@ def test_golden():
 
 
 def test_more_mark():
-    """The mark of more text below does not stand on a letter of the results."""
+    """The mark of more text below does not cover a letter of the results."""
     for scene in SCENES:
         for size in SIZES:
             body = views_of(scene, "ascii")[size, "results"].body
@@ -295,7 +294,7 @@ def test_more_mark():
 
 
 def test_years_view():
-    """View 6 in every size and in each charset: a whole screen, the column on the right is of its year."""
+    """View 6 in every size and in each charset: a whole screen, and the column of its year."""
     for charset in CHARSETS:
         script = ["wait idle", "key 6", "wait idle"]
         for width, height in SIZES + [(60, 20)]:
@@ -308,7 +307,7 @@ def test_years_view():
 
 
 def test_explanation():
-    """The line above the keys tells unit, range, default and source of the field."""
+    """The line above the keys has unit, range, default and source of the field."""
     screens = fast("""resize 200 50
         key 2
         find stools.per_ha
@@ -332,7 +331,7 @@ def test_explanation():
 
 
 def test_assumed():
-    """What is assumed carries a star, what is measured none."""
+    """Assumed values have a star, measured ones none."""
     screen = fast("""resize 120 40
         key 2
         dump""", "four-systems")[0]
@@ -342,7 +341,7 @@ def test_assumed():
 
 
 def test_too_small():
-    """Below 60 x 16 a message says what is needed; at 60 x 16 the views are there, whole and in their place."""
+    """Below 60 x 16 a message gives the minimum; at 60 x 16 the views are complete."""
     screens = fast("""wait idle
         resize 59 15
         dump
@@ -378,7 +377,7 @@ def check_smallest(view):
 
 
 def test_any_size():
-    """Every view and help in sizes from 60 x 16 to 300 x 100 fills the screen exactly."""
+    """Every view and help in sizes from 60 x 16 to 300 x 100 fill the screen exactly."""
     script = ["wait idle"]
     for width, height in ((60, 16), (61, 17), (79, 25), (99, 20), (100, 30), (139, 21), (140, 60), (300, 20), (60, 100),
                           (300, 100)):
@@ -389,10 +388,10 @@ def test_any_size():
             screen.whole()
 
 
-# ---- the small things of a script ----
+# ---- details of scripts ----
 
 def test_script_words():
-    """An unknown command, key or size ends with status 2 and its line, a dump that cannot be written with 4."""
+    """An unknown command, key or size ends with status 2 and its line, an unwritable dump with 4."""
     with Place() as place:
         for line, what in (("frobnicate", "frobnicate"), ("key Nokey", "Nokey"), ("resize 80", "80"), ("resize 0 5", ""),
                            ("resize 100000 5", ""), ("resize a b", ""), ("wait", ""), ("wait long", ""),
@@ -409,7 +408,7 @@ def test_script_words():
 
 
 def test_script_end():
-    """A script may end at any point, in CRLF, without a last line end, and after quitting nothing more is done."""
+    """A script may end at any point, in CRLF, without a last line end, and nothing runs after quitting."""
     with Place() as place:
         done = run_script(place.path, "key 2\r\nkey q\r\ndump late.txt\r\n", "fast.yaml")
         expect(done.status == DONE and not (place.path / "late.txt").exists(), done)
@@ -419,7 +418,7 @@ def test_script_end():
 
 
 def test_script_stdout():
-    """'dump -' writes the screen to standard output, and nothing else is there."""
+    """'dump -' writes only the screen to standard output."""
     with Place() as place:
         done = run_script(place.path, "key 3\ndump -\n", "fast.yaml", "--charset", "ascii")
         expect_equal(done.out.count("\n"), 24, "lines")
@@ -427,14 +426,14 @@ def test_script_stdout():
 
 
 def test_without_scene():
-    """Without a scene the paper's site is opened."""
+    """Without a scene the paper's site opens."""
     with Folder() as folder:
         screen = play.play(folder.path, "key 3\ndump")[0]
     screen.has("Test site of", "diameter, m 0.56")
 
 
 def test_charset_of_locale():
-    """The locale chooses the picture's dots, --charset and the key b others."""
+    """The locale chooses the picture's dots; --charset and the key b override it."""
     with Place() as place:
         run_script(place.path, "wait idle\ndump a.txt\nkey b\ndump b.txt\nkey b\ndump c.txt\n", "fast.yaml")
         expect(re.search("[\u2801-\u28ff]", place.text("a.txt")), place.text("a.txt"))

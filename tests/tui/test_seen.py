@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""View 8: what was seen beside what is simulated; c fits values to it, Enter takes them as one edit, Esc keeps nothing."""
+"""View 8: observations and simulations; c fits values, Enter applies them as one edit, Esc keeps nothing."""
 import math
 import re
 import statistics
@@ -12,7 +12,7 @@ from play import Place, check_good  # noqa: E402
 from test_terminal import Tmux  # noqa: E402
 from harness import PROFILES, expect, expect_equal, expect_in, good, run_all  # noqa: E402
 
-# Rocks leave a cliff and fly; all do the same. At x = 20 they have flown 20 / v seconds.
+# Rocks leave a cliff and fly; all are equal. At x = 20 they have flown 20 / v seconds.
 FLIGHT = """\
 ceduo: scene/1
 title: flight
@@ -33,7 +33,7 @@ observed:
 uncertainty: [{path: release.vx_m_s, lo: 5, hi: 15}]
 simulation: {rocks: 100}
 """
-# A slope on which rocks stop; two grounds of the library.
+# a slope on which rocks stop; two grounds of the library
 GROUNDS = """\
 ceduo: scene/1
 title: grounds
@@ -54,7 +54,7 @@ G = 9.81
 
 
 def test_nothing_seen():
-    """A scene without observations says so and how to add them, computes nothing, and c fits nothing"""
+    """A scene without observations explains how to add them, computes nothing, and c fits nothing"""
     with Place() as place:
         for size in ("80 24", "200 50"):
             view, key = place.play(f"resize {size}\nwait idle\nkey 8\ndump\nkey c\ndump")
@@ -64,7 +64,7 @@ def test_nothing_seen():
 
 
 def test_typed():
-    """What was seen is typed in field by field: stops, a count, heights, scars; it is edited, deleted, undone, and saved"""
+    """Observations are typed field by field: stops, a count, heights, scars; edited, deleted, undone, and saved"""
     with Place() as place:
         place.write("flight.yaml", FLIGHT.replace("[60, 0]", "[100, 0]"))
         kinds, stops, refused, wrong, all_, edited, gone, back, saved = place.play("""resize 120 50
@@ -136,7 +136,7 @@ def test_typed():
 
 
 def says(screen, *parts):
-    """Each part is in the view's own text, however that is wrapped."""
+    """Expect each part in the view's own text, in any wrapping."""
     flat = " ".join(screen.whole().body.split())
     for part in parts:
         expect(part in flat, f"{part!r} is missing in the", screen)
@@ -147,7 +147,7 @@ def speed_at_gate(v):
 
 
 def test_rows():
-    """Means and counts beside the closed form: 95 % of the error of what was seen around the flight's speed, all pass"""
+    """Means and counts equal the closed form: 95 % of the observation error around the flight's speed, all pass"""
     with Place() as place:
         place.write("flight.yaml", FLIGHT + SEEN)
         screens = place.play("key 8 Tab\nwait idle\ndump\nresize 200 50\ndump", "flight.yaml")
@@ -167,7 +167,7 @@ def test_rows():
 
 
 def test_unknown():
-    """What no simulated rock does has no probability and no range, and is told"""
+    """An observation that no simulated rock reproduces has no probability and no range, and is reported"""
     with Place() as place:
         place.write("flight.yaml", FLIGHT.replace("height_m: 1, ", "").replace("rt: 0.9", "rt: 0") + "observed:\n"
                     "  - {name: at the end, speed: {x_m: 59, n: 5, mean: 3, sd: 1}}\n"
@@ -188,7 +188,7 @@ def test_spread():
 
 
 def test_fit_taken():
-    """c fits what 'uncertainty' names; the speed that gives 22 m/s at the gate; Enter takes it as one edit, u takes it back"""
+    """c fits the values of 'uncertainty'; the speed that gives 22 m/s at the gate; Enter applies it as one edit, u undoes it"""
     with Place() as place:
         place.write("flight.yaml", FLIGHT + SEEN)
         popup, fitted, large, taken, saved, undone = place.play(
@@ -202,7 +202,7 @@ def test_fit_taken():
         expect(len(place.text("FITTED.draws.csv").splitlines()) > 100, "draws")
     expect_in("speed along, m/s", popup.popup)
     expect_in("5:15", popup.popup)
-    slope = 1.96 * 0.5 / math.sqrt(5) / 1.30  # of the speed at the gate along v at 10 m/s: (v - (20 g)² / v³) / 22
+    slope = 1.96 * 0.5 / math.sqrt(5) / 1.30  # derivative of the speed at the gate at v = 10 m/s: (v - (20 g)² / v³) / 22
     for screen in (fitted, large):
         best, lo, hi = map(float, re.search(r"speed along, m/s ([\d.]+) \(([\d.]+)–([\d.]+)\)", screen.body).groups())
         expect(abs(speed_at_gate(best) - 22) < 0.15 and abs(lo - 10.02 + slope) < 0.1 and abs(hi - 10.02 - slope) < 0.1, screen)
@@ -219,13 +219,13 @@ def test_fit_taken():
 
 
 def picture_of(screen):
-    """The lines of the picture of stops, down to its axis."""
+    """Return the lines of the picture of stops, down to its axis."""
     lines = screen.body.split("\n")
     return lines[:next(i for i, line in enumerate(lines) if "└" in line) + 2]
 
 
 def test_stops_of_each_option():
-    """Where rocks stopped below two woods the picture is of the option that is shown"""
+    """For stops below two forests the picture is the shown option's"""
     head = GROUNDS[:GROUNDS.index("forest:")].replace("  materials:", "  segments: [{rn: 0.3, rt: 0.8}]\n  # ").replace(
         "    - {from_m", "  # - {from_m")
     head += "options: [{name: one, forest: []}, {name: two, forest: []}]\nobserved:\n"
@@ -242,7 +242,7 @@ def test_stops_of_each_option():
 
 
 def test_fit_keeps_a_spread():
-    """A fitted value that is the mean of a spread takes the mean's place alone"""
+    """A fitted value that is the mean of a distribution replaces only the mean"""
     with Place() as place:
         place.write("flight.yaml", (FLIGHT + SEEN).replace("vx_m_s: 10}", "vx_m_s: {mean: 10, spread: 0.02}}"))
         place.play("key 8\nwait idle\nkey c\nkey Enter\nwait idle\nkey Enter\nwait idle\nkey s\nwait idle\ndump", "flight.yaml")
@@ -252,7 +252,7 @@ def test_fit_keeps_a_spread():
 
 
 def test_fit_left():
-    """Esc while it goes on, Esc once it is done, and an edit meanwhile keep nothing of a fit"""
+    """Esc during a fit, Esc after it, and an edit meanwhile keep nothing of it"""
     with Place() as place:
         place.write("flight.yaml", FLIGHT + SEEN)
         stopped, done, left, edited = place.play(
@@ -267,7 +267,7 @@ def test_fit_left():
 
 
 def test_bounds():
-    """Bounds that are none, wrong way round or out of range are told, and nothing is fitted; all empty likewise"""
+    """Invalid, reversed or out-of-range bounds are reported, and nothing is fitted; all empty likewise"""
     with Place() as place:
         place.write("flight.yaml", FLIGHT + SEEN)
         for typed, said in (("ten", "'ten' is not a number"), ("5", "the smaller first"), ("9:5", "the smaller first"),
@@ -280,7 +280,7 @@ def test_bounds():
 
 
 def test_grounds():
-    """Without a named range the grounds are offered, each with its own name; the picture of stops; nothing is cut"""
+    """Without a named range the grounds are proposed, each with its name; the picture of stops; nothing is cut"""
     with Place() as place:
         place.write("two.yaml", GROUNDS % "talus")
         for name, roughness in (("length", "roughness_m: 0.4"), ("angle", "roughness_rad: 0.1")):
@@ -316,8 +316,8 @@ def test_grounds():
 
 
 def test_too_many_values():
-    """Four values of the ground and 50 stops: while the fit goes on it is told soon which to fix, as Rn and Rt are known only
-    together; c asks again without it"""
+    """Four values of the ground and 50 stops: during the fit it soon reports which to fix, as Rn and Rt are correlated; c asks
+    again without it"""
     with Place() as place, Tmux(place) as t:
         t.start("quarry")
         t.keys("8", "c")
@@ -336,7 +336,7 @@ def test_too_many_values():
 
 
 def test_quarry():
-    """The quarry: its first guess of roughness and friction does not give the 50 stops; a fit of the two does, and is taken"""
+    """The quarry: its first roughness and friction do not give the 50 stops; a fit of both does, and is applied"""
     mean = statistics.mean(float(x) for x in (PROFILES / "observed/quarry-stops.csv").read_text().split()[1:])
     with Place() as place:
         small, large, fitted, taken = place.play(

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""View 2: what goes along with a value of a stand, what does not and is said, and what is unlikely."""
+"""View 2: values of a stand that follow an edit, those that stay with a message, and unlikely stands."""
 import math
 import sys
 from pathlib import Path
@@ -11,7 +11,7 @@ from harness import expect, expect_equal, expect_in, expect_near, run_all  # noq
 
 ASSUMED = "source: {kind: assumed, text: a guess}"
 PER_STOOL = FAST.replace("{per_ha: 9000,", "{per_stool: 2.5,").replace("{per_ha: 500,", "{per_stool: 0.5,")
-# The first class of trees is assumed, the second counted; shoots grow, trees do not; a cut leaves 60 + 40.
+# The first class of trees is assumed, the second counted; shoots grow, trees do not; a cut retains 60 + 40.
 CUT = FAST.replace("{per_ha: 80, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}", f"{{per_ha: 80, dbh_m: 0.2, height_m: 12, {ASSUMED}}}").replace(
     "{per_ha: 9000, dbh_m: 0.06, height_m: 7, volume_m3: 0.01}", f"{{per_ha: 9000, dbh_m: 0.06, height_m: 7, {ASSUMED}}}").replace(
     "      energy: {model: brauner, u_J_m3: 100000, offset: whole}\n", """\
@@ -28,7 +28,7 @@ def play(text, script):
 
 
 def test_round_trip():
-    """Shoots per stool stay so in the file; the other key takes their place where it is typed, and u brings them back"""
+    """Shoots per stool stay so in the file; typing the other key replaces it, and u undoes it"""
     with Place() as place:
         place.write("s.yaml", PER_STOOL)
         screens = place.play("key 2\ndump\nfind stools.per_ha\nset 1500\ndump\nkey s", "s.yaml")
@@ -37,7 +37,7 @@ def test_round_trip():
 
 
 def test_per_hectare():
-    """Shoots that are given per hectare stay as many, and the form says what that means"""
+    """Shoots given per hectare stay constant, and the form explains it"""
     start, fewer = play(FAST, "key 2\ndump\nfind stools.per_ha\nset 1500\ndump")
     for screen in (start, fewer):
         expect(any(line.split()[:2] == ["1", "9000"] for line in screen.body.split("\n")), screen)
@@ -47,7 +47,7 @@ def test_per_hectare():
 
 
 def test_diameter():
-    """A starred height goes along with its diameter by the growth curve, and keeps its star; u takes back both"""
+    """A starred height follows its diameter by the growth curve, and keeps its star; u undoes both"""
     curve = [15 * (1 - (1 - d / 0.2) ** (0.03 / 0.02)) for d in (0.06, 0.12)]
     start, thicker, back = play(CUT, "resize 120 40\nkey 2\nfind shoots[0].dbh_m\ndump\nset 12\ndump\nkey u\ndump")
     row = thicker.row(r"^1 +9000")
@@ -58,7 +58,7 @@ def test_diameter():
 
 
 def test_diameter_alone():
-    """A height that was measured stays; one that is assumed without a curve stays, too, and that is said"""
+    """A measured height stays; an assumed one without a curve stays, too, with a message"""
     counted, beyond, tree = play(CUT, """resize 120 40
         key 2
         find shoots[1].dbh_m
@@ -77,7 +77,7 @@ def test_diameter_alone():
 
 
 def test_standards():
-    """Trees of today and those that a cut leaves stand together; where they differ the form says so"""
+    """Today's trees and those retained by a cut are shown together; if they differ the form says so"""
     start, more, cut = play(CUT, """resize 120 40
         key 2
         dump
@@ -94,7 +94,7 @@ def test_standards():
 
 
 def test_unlikely():
-    """What is unlikely stands below the form at once"""
+    """Warnings of an unlikely stand appear below the form at once"""
     start, dense = play(PER_STOOL, "resize 120 40\nkey 2\ndump\nfind shoots[0].per_stool\nset 15\ndump")
     start.lacks("shoots a stool are more than")
     dense.has("! upper: 15.5 shoots a stool are more than 15")

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""+ and - in the terminal program: a step is one unit of the second digit, also from a power of ten down, so that +
-takes back what - did."""
+"""+ and - in the terminal program: a step is one unit of the second digit, also from a power of ten down, so that + undoes -."""
 import sys
 from pathlib import Path
 
@@ -15,14 +14,14 @@ STOOLS = 2, "stools.per_ha", "^stools per ha"
 
 
 def stepped(field, start, keys):
-    """The values of a field from a start on, one after each key."""
+    """Return the values of a field from a start on, one after each key."""
     view, name, row = field
     script = f"key {view}\nfind {name}\nset {start}\n" + "".join(f"key {key}\ndump\n" for key in keys)
     return [float(screen.row(row)[-1]) for screen in fast(script)]
 
 
 def test_down_from_a_power_of_ten():
-    """Down from 1 the step is that of what is below: 0.99; and + leads back to 1"""
+    """Down from 1 the step is that below: 0.99; and + returns to 1"""
     for field, start, lower in ((THRESHOLD, 0.1, 0.099), (THRESHOLD, 1, 0.99), (THRESHOLD, 10, 9.9),
                                 (THRESHOLD, 100, 99), (THRESHOLD, 10000, 9900), (STOOLS, 1000, 990),
                                 (ROCKS, 1000, 990), (ROCKS, 100, 99)):
@@ -36,12 +35,12 @@ def test_through_a_power_of_ten():
 
 
 def test_counts_stay_whole():
-    """A count of few has steps of 1: from 10 down to 9"""
+    """A small count has steps of 1: from 10 down to 9"""
     expect_equal(stepped(ROCKS, 11, "---++"), [10, 9, 8, 9, 10], "rocks")
 
 
 def test_centimetres():
-    """A diameter is stepped in the centimetres that are shown: from 30 to 31, and the file has metres"""
+    """A diameter steps in the displayed centimetres: from 30 to 31, and the file has metres"""
     for start, keys, metres in ((30, "+", "0.31"), (30, "-", "0.29"), (10, "-", "0.099"), (9.9, "+", "0.1"), (100, "+", "1.1")):
         with Place() as place:
             place.play(f"key 2\nfind trees[0].dbh_m\nset {start}\nkey {keys}\nkey s\nwait idle\ndump")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow
-"""The program in a real terminal, that of tmux: keys, sizes, signals, and that the terminal is left as it was."""
+"""The program in a real terminal, tmux: keys, sizes, signals, and the restored terminal."""
 import fcntl
 import os
 import pty
@@ -25,7 +25,7 @@ ASAN = b"__asan_init" in Path(CEDUO).read_bytes()
 
 
 def until(what, found):
-    """Polls until found() is true, and returns that."""
+    """Poll until found() is true, and return its value."""
     end = time.monotonic() + PATIENCE
     while True:
         value = found()
@@ -37,7 +37,7 @@ def until(what, found):
 
 
 class Tmux:
-    """A tmux server of its own with one shell in it; `with Tmux(place) as t:`. Further names are set for the shell."""
+    """A separate tmux server with one shell; `with Tmux(place) as t:`. Further variables are set for the shell."""
 
     def __init__(self, place, width=80, height=24, **changes):
         self.place, self.width, self.height = place, width, height
@@ -57,7 +57,7 @@ class Tmux:
     def __enter__(self):
         if not shutil.which("tmux"):
             raise Skip("no tmux here")
-        # The shell gets exactly this environment, not what tmux would add to it.
+        # the shell gets exactly this environment, without tmux's additions
         inner = [f"{k}={v}" for k, v in self.env.items()]
         self.tmux("-u", "new-session", "-d", "-s", "first", "-x", str(self.width), "-y", str(self.height),
                   "env", "-i", *inner, "sh", "-i")
@@ -72,7 +72,7 @@ class Tmux:
         return self.tmux("capture-pane", "-p", *options)
 
     def sees(self, *parts, lacks=()):
-        """Waits until all parts are on the screen; returns it."""
+        """Wait until all parts are on the screen; return it."""
         last = [""]
 
         def there():
@@ -89,14 +89,14 @@ class Tmux:
         self.tmux("send-keys", "-l", text)
 
     def shell(self, line):
-        """A command of the shell; returns what is on the screen once it is done."""
+        """Run a shell command; return the screen after it."""
         self.marks += 1
         self.text(f"clear; {line}; echo DONE-$((1000+{self.marks}))")
         self.keys("Enter")
         return self.sees(f"DONE-{1000 + self.marks}\n")
 
     def start(self, scene, sees=("? help", "q quit", "1 slope")):
-        """Starts the program; returns its process."""
+        """Start the program; return its process."""
         self.text(f"clear; '{CEDUO}' {scene}")
         self.keys("Enter")
         self.sees(*sees)
@@ -115,7 +115,7 @@ class Tmux:
         return self.tmux("display-message", "-p", "#{alternate_on}").strip() == "1"
 
     def edit(self, stools="1234"):
-        """Changes the stools of the first belt."""
+        """Change the stools of the first belt."""
         self.keys("2")
         self.sees("stools per ha")
         self.keys("/")
@@ -133,7 +133,7 @@ class Tmux:
 
 
 def gone(pid):
-    """Whether a process has ended."""
+    """True if a process has ended."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] in "ZX"
     except (FileNotFoundError, ProcessLookupError):
@@ -141,14 +141,14 @@ def gone(pid):
 
 
 def mode(t):
-    """What stty says of the terminal, between marks of its own."""
+    """Return stty's output for the terminal, between marks."""
     text = t.shell("stty -a")
     found = text.split("\n")
     return "\n".join(line for line in found if "=" in line or "icanon" in line or "echo" in line or "speed" in line)
 
 
 def after_ending(t, before, what):
-    """The terminal is that of a shell again."""
+    """Expect the terminal of a shell again."""
     t.sees("READY>")
     until(f"the alternate screen is left after {what}", lambda: not t.alternate())
     expect_equal(mode(t), before, f"stty -a after {what}")
@@ -159,7 +159,7 @@ def after_ending(t, before, what):
 # ---- working ----
 
 def test_work():
-    """Start, edit, undo, redo, save, quit; every key does at once what it should."""
+    """Start, edit, undo, redo, save, quit; every key acts at once."""
     with Place() as place, Tmux(place) as t:
         before = mode(t)
         t.start("fast.yaml")
@@ -181,7 +181,7 @@ def test_work():
 
 
 def test_function_keys():
-    """Function keys, arrows, Shift-Tab, Del, PgDn come as the terminal sends them; Esc without delay."""
+    """Function keys, arrows, Shift-Tab, Del, PgDn arrive in the terminal's sequences; Esc without delay."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         t.keys("F1")
@@ -198,7 +198,7 @@ def test_function_keys():
             t.keys("Escape")
             t.sees("Belts of forest", lacks=("select text in",))
             took.append(time.monotonic() - start)
-        expect(min(took) < 0.5, f"Esc took {min(took):.2f} s at least")  # curses waits for a whole second unless it is told not to
+        expect(min(took) < 0.5, f"Esc took {min(took):.2f} s at least")  # curses waits for a second by default
         t.keys("Down", "Right")
         t.sees("to, m: where the belt ends")
         t.keys("DC")
@@ -224,7 +224,7 @@ def test_function_keys():
 
 
 def test_utf8():
-    """What is typed in UTF-8 arrives whole."""
+    """Typed UTF-8 arrives whole."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         t.keys("3")
@@ -242,7 +242,7 @@ def test_utf8():
 
 
 def test_resizes():
-    """200 resizes, and the screen is that of its size; too small says so and comes back."""
+    """200 resizes, and the screen has its size; too small gives a message and recovers."""
     with Place() as place, Tmux(place) as t:
         pid = t.start("fast.yaml")
         sizes = [(80, 24), (20, 5), (200, 50), (60, 20), (59, 15), (121, 33), (1, 1), (100, 30), (300, 90), (79, 24)]
@@ -266,7 +266,7 @@ def test_resizes():
 
 
 def test_stop():
-    """Ctrl-Z gives the terminal back as it was, fg goes on where it was."""
+    """Ctrl-Z restores the terminal, fg continues."""
     with Place() as place, Tmux(place) as t:
         before = mode(t)
         t.start("fast.yaml")
@@ -285,7 +285,7 @@ def test_stop():
 
 
 def test_stopped_unasked():
-    """Stopped by a signal that cannot be caught, fg brings the screen back whole, and keys work."""
+    """Stopped by a signal that cannot be caught, fg redraws the screen, and keys work."""
     with Place() as place, Tmux(place) as t:
         before = mode(t)
         pid = t.start("fast.yaml")
@@ -301,7 +301,7 @@ def test_stopped_unasked():
 
 
 def test_interrupt():
-    """Ctrl-C asks like q: at once where nothing is unsaved, otherwise first."""
+    """Ctrl-C asks like q: ends at once if nothing is unsaved, otherwise asks."""
     with Place() as place, Tmux(place) as t:
         before = mode(t)
         t.start("fast.yaml")
@@ -323,7 +323,7 @@ def left_behind(place):
 
 
 def sane(t):
-    """A terminal that a killed program left as it was, for the shell again."""
+    """Restore a terminal left by a killed program for the shell."""
     t.tmux("send-keys", "-R")
     t.marks += 1
     t.keys("C-j")
@@ -333,7 +333,7 @@ def sane(t):
 
 
 def end_by(number, name, restores):
-    """Ends the program with unsaved work by a signal; the next start offers that work."""
+    """End the program with unsaved work by a signal; the next start offers that work."""
     with Place() as place, Tmux(place) as t:
         t.shell("ulimit -c 0")
         before = mode(t)
@@ -366,29 +366,29 @@ def end_by(number, name, restores):
 
 
 def test_kill():
-    """kill -9: the next start offers the work, takes it up, saves it."""
+    """kill -9: the next start offers the work, recovers it, saves it."""
     end_by(signal.SIGKILL, "SIGKILL", False)
 
 
 def test_term():
-    """SIGTERM leaves the terminal as it was, and the work to be taken up again."""
+    """SIGTERM restores the terminal, and the work can be recovered."""
     end_by(signal.SIGTERM, "SIGTERM", True)
 
 
 def test_hup():
-    """SIGHUP leaves the terminal as it was, and the work to be taken up again."""
+    """SIGHUP restores the terminal, and the work can be recovered."""
     end_by(signal.SIGHUP, "SIGHUP", True)
 
 
 def test_crash():
-    """A crash (SIGSEGV) leaves the terminal as it was, and the work to be taken up again."""
+    """A crash (SIGSEGV) restores the terminal, and the work can be recovered."""
     if ASAN:
         raise Skip("the sanitizer would report the signal")
     end_by(signal.SIGSEGV, "SIGSEGV", True)
 
 
 def test_abort():
-    """An abort leaves the terminal as it was too."""
+    """An abort restores the terminal too."""
     with Place() as place, Tmux(place) as t:
         t.shell("ulimit -c 0")
         before = mode(t)
@@ -399,7 +399,7 @@ def test_abort():
 
 
 def test_signal_status():
-    """A signal ends the program by that signal: the shell sees 128 + its number."""
+    """A signal ends the program by that signal: the shell gets 128 + its number."""
     for number in (signal.SIGTERM, signal.SIGHUP):
         with Place() as place, Tmux(place) as t:
             t.text(f"clear; '{CEDUO}' fast.yaml; echo STATUS-$?-")
@@ -410,7 +410,7 @@ def test_signal_status():
 
 
 def test_no_memory():
-    """Without memory the program says one sentence, leaves the terminal as it was, and the edits to be taken up again."""
+    """Without memory the program prints one sentence, restores the terminal, and the edits can be recovered."""
     if SANITIZED:
         raise Skip("the sanitizers have their own malloc")
     kept = 0
@@ -428,7 +428,7 @@ def test_no_memory():
                     break
                 t.keys("2", "+")
             screen = t.sees("STATUS-1-", "READY>")
-            t.keys("C-u", "Enter")  # what was pressed too late
+            t.keys("C-u", "Enter")  # keys pressed too late
             after_ending(t, before, "running out of memory")
             said = "ceduo: out of memory; unsaved work was kept and is offered at the next start"
             expect_in(said.replace(" ", ""), re.sub(r"\s", "", screen), "however the line is broken")
@@ -444,7 +444,7 @@ def test_no_memory():
 
 
 def test_forget():
-    """Work that was left behind can be forgotten, and is not offered again."""
+    """Recoverable work can be discarded, and is not offered again."""
     with Place() as place, Tmux(place) as t:
         pid = t.start("fast.yaml")
         t.edit("1234")
@@ -461,7 +461,7 @@ def test_forget():
 
 
 def leave_work(t, place):
-    """Unsaved work of a program that is killed."""
+    """Return unsaved work of a killed program."""
     pid = t.start("fast.yaml")
     t.edit("1234")
     until("a copy of the unsaved work", lambda: left_behind(place))
@@ -475,7 +475,7 @@ def kill(t, pid):
 
 
 def test_recover_twice():
-    """Killed again before anything is chosen: the work is still offered at the next start."""
+    """Killed again before a choice: the work is still offered at the next start."""
     with Place() as place, Tmux(place) as t:
         leave_work(t, place)
         kill(t, t.start("fast.yaml", sees=("Unsaved changes were found", "forget them")))
@@ -483,7 +483,7 @@ def test_recover_twice():
 
 
 def test_recover_list():
-    """What was left behind on several scenes is one list with date and title; one is taken up in its own scene."""
+    """Recoverable work on several scenes is one list with date and title; each is recovered in its own scene."""
     with Place() as place, Tmux(place) as t:
         place.write("other.yaml", FAST.replace("title: fast", "title: the mill"))
         leave_work(t, place)
@@ -515,7 +515,7 @@ def test_recover_escape():
 
 
 def test_two_at_once():
-    """A second program on the same scene is not offered the unsaved work of the first, which still runs."""
+    """A second program on the same scene is not offered the unsaved work of the running first one."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         t.edit("1234")
@@ -528,7 +528,7 @@ def test_two_at_once():
 
 
 def test_closed_window():
-    """A window that is closed ends the program, and the work can be taken up again."""
+    """Closing a window ends the program, and the work can be recovered."""
     with Place() as place, Tmux(place) as t:
         pid = t.start("fast.yaml")
         t.edit("1234")
@@ -539,10 +539,10 @@ def test_closed_window():
         expect(left_behind(place), "the work is lost")
 
 
-# ---- stopping while it draws ----
+# ---- stopping during drawing ----
 
 def job_that_goes_on(arguments, env):
-    """What a shell does, without asking: starts the program as a job, and lets it go on whenever it stops."""
+    """Act like a shell: start the program as a job, and continue it whenever it stops."""
     signal.signal(signal.SIGTTOU, signal.SIG_IGN)
     job = os.fork()
     if job == 0:
@@ -558,7 +558,7 @@ def job_that_goes_on(arguments, env):
 
 
 def stop_again_and_again(fd):
-    """On the terminal of a job that goes on: a key, Ctrl-Z a moment later, and what must come on the screen then."""
+    """On the terminal of a continued job: a key, Ctrl-Z a moment later, and the expected screen."""
     fcntl.ioctl(fd, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
     os.set_blocking(fd, False)
     written = [b""]
@@ -583,7 +583,7 @@ def stop_again_and_again(fd):
 
 
 def test_stop_while_drawing():
-    """Ctrl-Z is never lost, whatever the program is doing: 400 times, each at another moment of drawing a screen."""
+    """Ctrl-Z is never lost: 400 times, each at another moment of drawing a screen."""
     with Place() as place:
         pid, fd = pty.fork()
         if pid == 0:
@@ -600,10 +600,10 @@ def test_stop_while_drawing():
             os.close(fd)
 
 
-# ---- terminals that cannot show it ----
+# ---- unsuitable terminals ----
 
 def in_pty(*arguments, env, cwd):
-    """Runs the program on a bare pseudo-terminal of 80x24; returns its status and all it wrote."""
+    """Run the program on a bare pseudo-terminal of 80x24; return its status and output."""
     pid, fd = pty.fork()
     if pid == 0:
         try:
@@ -671,7 +671,7 @@ def test_bad_scene():
 # ---- colours and letters ----
 
 def test_ascii_locale():
-    """LC_ALL=C: a screen in ASCII alone."""
+    """LC_ALL=C: a screen in pure ASCII."""
     with Place() as place, Tmux(place, LC_ALL="C") as t:
         t.start("fast.yaml")
         for view in "12345?":
@@ -682,13 +682,13 @@ def test_ascii_locale():
 
 
 def colours_of(screen):
-    """The colour codes of the sequences m; 39 and 49 are the terminal's own colours."""
+    """Return the colour codes of the sequences m; 39 and 49 are the terminal's own colours."""
     codes = [c for seq in re.findall(r"\x1b\[([\d;:]*)m", screen) for c in re.split("[;:]", seq)]
     return {c for c in codes if re.fullmatch(r"3[0-8]|4[0-8]|9\d|10\d", c)}
 
 
 def test_no_color():
-    """NO_COLOR: no colour sequences; the signs are still there. Without it there are some."""
+    """NO_COLOR: no colour sequences; the signs remain. Without it there are some."""
     for setting, wanted in (({}, True), ({"NO_COLOR": "1"}, False)):
         with Place() as place, Tmux(place, **setting) as t:
             t.start("fast.yaml")
@@ -703,7 +703,7 @@ def test_no_color():
 
 
 def test_themes():
-    """t goes through dark, light and none; the third has no colours."""
+    """t cycles through dark, light and none; the third has no colours."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         t.sees("finished, ")
@@ -718,7 +718,7 @@ def test_themes():
 
 
 def press_mouse(t, button, x, y):
-    """Presses a button at a cell, counted from 1, and releases it; 64 and 65 are the wheel, up and down."""
+    """Press a button at a cell, counted from 1, and release it; 64 and 65 are the wheel, up and down."""
     if t.tmux("display-message", "-p", "#{mouse_sgr_flag}").strip() == "1":
         t.text(f"\x1b[<{button};{x};{y}M" + (f"\x1b[<{button};{x};{y}m" if button < 3 else ""))
     else:
@@ -727,7 +727,7 @@ def press_mouse(t, button, x, y):
 
 
 def test_mouse_like_keys():
-    """A click and the wheel take the message away, and what follows the cursor follows them: view 2 has the form of the belt
+    """A click and the wheel dismiss the message, and parts that follow the cursor follow them: view 2 has the form of the belt
     under the cursor."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
@@ -746,7 +746,7 @@ def test_mouse_like_keys():
 
 
 def test_mouse():
-    """A click on a view's name opens it, the wheel moves."""
+    """A click on a view's name opens it, the wheel scrolls."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         flags = t.tmux("display-message", "-p", "#{mouse_any_flag} #{mouse_sgr_flag}").split()
@@ -772,7 +772,7 @@ def test_mouse():
 
 
 def test_click_and_wait():
-    """After a click and its release the figures go on by themselves: the program does not wait for a key."""
+    """After a click and its release the figures continue: the program does not wait for a key."""
     with Place() as place, Tmux(place) as t:
         t.start("paper-site") # its figures are not precise after 10240 rocks
         sgr = t.tmux("display-message", "-p", "#{mouse_sgr_flag}").strip() == "1"
@@ -786,7 +786,7 @@ def test_click_and_wait():
 # ---- at rest ----
 
 def test_idle():
-    """A program at rest uses no processor and writes nothing."""
+    """An idle program uses no processor and writes nothing."""
     for scene, mark in (("fast.yaml", "finished, "), ("wood.yaml", "finished, ")):
         at_rest(scene, mark)
 
@@ -804,7 +804,7 @@ def at_rest(scene, mark):
             return {"seconds": processor_seconds(pid), "written": int(io["wchar"]), "read": int(io["rchar"]),
                     "switches": [int(s) for s in switches]}
 
-        # quiet first: the last picture is out, the last copy written
+        # quiet first: the last picture is drawn, the last copy written
         last = [None]
 
         def quiet():
@@ -820,7 +820,7 @@ def at_rest(scene, mark):
 
 
 def test_refining_ends():
-    """On the paper's site the figures are refined by themselves, until the mark says that they are fine."""
+    """On the paper's site the figures refine until the mark says that they are fine."""
     with Place() as place, Tmux(place) as t:
         t.start("paper-site")
         screen = until("figures that are refined no more", lambda: (lambda s: "finished, " in s and s)(t.screen()))
@@ -829,7 +829,7 @@ def test_refining_ends():
 
 
 def test_live_wood():
-    """A stand edited by key after key: each time the figures through the wood are new, the last ones are those of its end."""
+    """A stand edited key by key: each time the figures with forest are new, the last ones belong to its final state."""
     with Place() as place, Tmux(place) as t:
         t.start("wood.yaml")
         t.edit("1234")
@@ -857,7 +857,7 @@ def test_live_wood():
 
 
 def test_uncertainty_of_the_shown_option_first():
-    """View 7 has the option that is shown first; what it says of that stays when the others come"""
+    """View 7 has the shown option first; its text stays when the others arrive"""
     with Place() as place, Tmux(place, 120, 40) as t:
         t.start("four-systems")
         t.keys("7")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One thing has one number and one name on every screen, and no sentence is cut."""
+"""Each figure has one number and one name on every screen, and no sentence is cut."""
 import re
 import sys
 from pathlib import Path
@@ -14,7 +14,7 @@ LONG = "A title that says what the scene is about, for whom, and in which year"
 
 
 def test_title():
-    """The scene's title is whole where the names of the views leave room, above the figures with its two ends otherwise; a mark tells unsaved work"""
+    """The scene's title is whole if the names of the views leave space, otherwise above the figures; a mark shows unsaved work"""
     with Place() as place:
         place.write("long.yaml", WOOD.replace("title: wood", f"title: {LONG}"))
         small, edited, wide = place.play("dump\nkey 3\nfind rock.diameter_m\nset 0.9\ndump\nresize 200 50\ndump", "long.yaml")
@@ -26,7 +26,7 @@ def test_title():
 
 
 def test_explanation():
-    """What explains a field ends in a sign of more where two lines cannot hold it, never in the middle of a word"""
+    """A field's explanation longer than two lines ends in a mark, never in the middle of a word"""
     source = "{kind: literature, text: " + "a remark of many words " * 12 + "}"
     with Place() as place:
         place.write("noted.yaml", WOOD.replace("upper\n", f"upper\n      source: {source}\n"))
@@ -36,7 +36,7 @@ def test_explanation():
 
 
 def test_remarks():
-    """A warning that has no room in the column is counted there, and stands whole in view 4"""
+    """A warning that does not fit the column is counted there, and is whole in view 4"""
     with Place() as place:
         found, page = place.play("wait idle\ndump\nkey 4\nresize 200 50\nkey End\ndump", PAPER)
     left = re.search(r"^! (\d+) remarks? more: view 4$", found.now, re.M)
@@ -49,7 +49,7 @@ def test_remarks():
 
 
 def test_unusual():
-    """A file with an unusual number is opened, and the number is named until a key is pressed; a start names it on standard error, too"""
+    """A file with an unusual number opens, and the number is reported until a key; a start also reports it on standard error"""
     said = "rock.diameter_m: 80 m is unusual (usual: 0.05 to 15 m)"
     with Place() as place:
         place.write("large.yaml", FAST.replace("diameter_m: 0.5", "diameter_m: 80"))
@@ -63,7 +63,7 @@ def test_unusual():
 
 
 def test_one_error():
-    """The share of an option has one error in view 5 and in the column"""
+    """An option's share has one error in view 5 and in the column"""
     with Place() as place:
         place.write("cuts.yaml", CUTS)
         screen, = place.play("key 5\nwait idle\ndump", "cuts.yaml")
@@ -74,7 +74,7 @@ def test_one_error():
 
 
 def test_growth_in_centimetres():
-    """View 6 names the unit in which a diameter is shown there"""
+    """View 6 names the displayed unit of a diameter"""
     growth = ("growth: {shoots: {dbh_most_m: 0.25, dbh_rate_1_y: 0.03, height_most_m: 18, height_rate_1_y: 0.05}, "
               "trees: {dbh_most_m: 0.6, dbh_rate_1_y: 0.02, height_most_m: 25, height_rate_1_y: 0.04}}")
     with Place() as place:
@@ -86,7 +86,7 @@ def test_growth_in_centimetres():
 
 
 def test_no_forest():
-    """Where no forest stands, view 4 has each figure once"""
+    """Without forest view 4 has each figure once"""
     with Place() as place:
         place.write("open.yaml", WOOD[:WOOD.index("forest:")] + "simulation: {rocks: 1000}\n")
         screen, = place.play("key 4\nwait idle\nresize 80 40\ndump", "open.yaml")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""View 5: a offers treatments of the stand that is there; p and c keep growth and cutting of what they replace, or say what they
+"""View 5: a offers treatments of the existing stand; p and c keep growth and cutting of the replaced one, or say what they
 drop."""
 import sys
 from pathlib import Path
@@ -21,7 +21,7 @@ controls: [{x_m: 130, name: road, accepted_kJ: 50}]
 uncertainty: none
 simulation: {contact_model: index}
 """
-# A stand as a survey of version 0.4 writes it: without growth and cutting.
+# a stand as a survey of version 0.4 writes it: without growth and cutting
 PLOT = """\
 ceduo: stand/1
 name: plot
@@ -46,7 +46,7 @@ UNCUT = "key a Down Down Enter\n"
 
 
 class Place(Folder):
-    """A folder with the scenes in it."""
+    """A folder with the scenes."""
 
     def __enter__(self):
         super().__enter__()
@@ -72,8 +72,8 @@ def without_source(group):
 
 
 def test_treatments_of_a_survey():
-    """A stand without growth: cut now with 60 and 120 standards, selection, not cut; growth and cuts come from the shipped stand of
-    its species, marked as assumed, and the years are those of such a scene written by hand."""
+    """A stand without growth: cut now with 60 and 120 standards, selection, not cut; growth and cuts come from the shipped
+    stand of its species, marked assumed, and the years equal those of such a scene written by hand."""
     with Place() as place:
         script = "key 5\n" + CUT.format(60) + "dump\n" + CUT.format(120) + SELECTION + "dump\n" + UNCUT + "key Enter\ndump\n"
         first, third, last = place.play(script + "key s\nwait idle\ndump", "plain.yaml")[:3]
@@ -106,7 +106,7 @@ def test_treatments_of_a_survey():
         place.write("hand.yaml", hand.replace("'", ""))
 
         def years(scene, names):
-            """Yield and stems of each year."""
+            """Return yield and stems of each year."""
             got = {o["name"]: o for o in result("--years", "0:30", place.path / scene)["options"]}
             return [(got[n]["yield"], [[s["stems_per_ha"] for s in y["stands"]] for y in got[n]["years"]]) for n in names]
         expect_equal(years("plain.yaml", ["cut now, keep 60", "cut now, keep 120"]), years("hand.yaml", ["a", "b"]),
@@ -114,7 +114,7 @@ def test_treatments_of_a_survey():
 
 
 def test_one_step_each():
-    """Each treatment is one step that u takes back, and the cursor stays on the option that was copied."""
+    """Each treatment is one undo step, and the cursor stays on the copied option."""
     with Place() as place:
         two, one, none = place.play("resize 120 40\nkey 5\n" + CUT.format(60) + SELECTION + "wait idle\ndump\nkey u\nclear\nwait idle\ndump\n"
                                     "key u\nclear\nwait idle\ndump", "plain.yaml")
@@ -125,7 +125,7 @@ def test_one_step_each():
 
 
 def test_own_growth_and_cutting():
-    """A stand's own growth and rotation stay; standards keep the proportion of its ages; another belt's too; years without a cut."""
+    """A stand's own growth and rotation stay; standards keep the proportion of ages; also another belt's; years without a cut."""
     with Place() as place:
         script = "key 5\n" + CUT.format(33) + "dump\n" + UNCUT + "type 20\nkey Enter\ndump\n" + SELECTION + UNCUT + "key Enter\n"
         cut, wait = place.play(script + "key s\nwait idle\ndump", "own.yaml")[:2]
@@ -149,7 +149,7 @@ def test_own_growth_and_cutting():
 
 
 def test_names():
-    """Treatments of another option have its name beside theirs where a name would be there twice."""
+    """Treatments of another option have its name in theirs if a name would repeat."""
     with Place() as place:
         place.play("key 5\n" + CUT.format(60) + "key a\ntype large-reserves-cut\nkey Enter\n" + CUT.format(60) + "key s\nwait idle\ndump",
                    "plain.yaml")
@@ -158,7 +158,7 @@ def test_names():
 
 
 def test_what_cannot_be_treated():
-    """Trees without stools are no coppice: such a belt stays as it is and is named; bare ground is passed over."""
+    """Trees without stools are no coppice: such a belt stays unchanged and is reported; bare ground is skipped."""
     high = "{name: high, species: fagus-sylvatica, trees: [{per_ha: 300, dbh_m: 0.3, height_m: 20}]}"
     scenes = {"high.yaml": f"forest: [{{from_m: 20, to_m: 125, stand: {high}}}]\n",
               "both.yaml": f"forest: [{{from_m: 20, to_m: 60, stand: {high}}}, {{from_m: 60, to_m: 125, stand: plot.yaml}}]\n",
@@ -178,7 +178,7 @@ def test_what_cannot_be_treated():
 
 
 def test_new_option_keeps_the_year():
-    """A new option from a preset is cut in the year in which the first option is."""
+    """A new option from a preset has the first option's cut year."""
     with Place() as place:
         place.play("key 5 a\ntype large-reserves-cut\nkey Enter s\nwait idle\ndump", "own.yaml")
         belts = place.saved("own.yaml")["options"][1]["forest"]
@@ -186,14 +186,14 @@ def test_new_option_keeps_the_year():
 
 
 def chose(script, scene="own.yaml"):
-    """What is said to the choice of a stand, and the belts that are saved."""
+    """Return the message after the choice of a stand, and the saved belts."""
     with Place() as place:
         screen = place.play(script + "dump\nkey s\nwait idle\ndump", scene)[0]
         return screen.note, place.saved(scene)["forest"]
 
 
 def test_what_a_preset_drops():
-    """p in views 1, 2 and 5 says what of a stand's own growth and cutting is gone, and that the year of the cut stays."""
+    """p in views 1, 2 and 5 reports lost growth and cutting, and that the cut year stays."""
     for view in ("key 1\nfind forest[0]\n", "key 2\n", "key 5\n"):
         note, belts = chose(view + "key p\ntype large-reserves-cut\nkey Enter\n")
         expect_equal(note, "growth and cutting of 'own' are now those of 'large reserves, just cut'; it is still cut in year 5", view)
@@ -209,7 +209,7 @@ def test_what_a_preset_drops():
 
 
 def test_counts_keep():
-    """c keeps growth, cutting and year of the stand whose stems it counts anew."""
+    """c keeps growth, cutting and cut year of the stand whose stems it replaces."""
     note, belts = chose("key 2 c Enter Enter\ntype 60\nkey Enter\ntype 180\nkey Enter Enter Enter Enter Enter Enter\n")
     expect_in("each counted stem is", note)
     expect_equal(belts[0]["cut_year"], 5, "year")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: brief
-"""What a forester types: centimetres, decimal commas, and what is so unusual that the program asks back."""
+"""A forester's typing: centimetres, decimal commas, and unusual values that need a confirmation."""
 import sys
 from pathlib import Path
 
@@ -23,7 +23,7 @@ def test_centimetres():
 
 
 def test_commas_elsewhere():
-    """A decimal comma is taken in every number, in a point of the profile, and in a value with its spread."""
+    """A decimal comma is accepted in every number, in a point of the profile, and in a value with its spread."""
     screens = fast("""key 3
         find rock.diameter_m
         set 0,75
@@ -41,7 +41,7 @@ def test_commas_elsewhere():
 
 
 def test_asks_back():
-    """A stem of 9 m is asked about; the same once more is taken, another value is a new one, Esc leaves all as it was."""
+    """A stem of 9 m needs a confirmation; repeated it is accepted, another value is a new one, Esc restores."""
     start = "key 2\nwait idle\nfind shoots[0].dbh_m\nclear\n"
     before, asked, taken = fast(start + "dump\nset 900\ndump\nkey Enter\ndump")
     expect_in("diameter, cm: 900 cm? Usual is 1 to 200", asked.note)
@@ -54,7 +54,7 @@ def test_asks_back():
 
 
 def test_ranges_in_centimetres():
-    """What a diameter cannot be is said in cm."""
+    """An impossible diameter is reported in cm."""
     for typed, words in (("-7", "-7 is below 0 cm"), ("1001", "1001 is above 1000 cm")):
         screen = fast(f"key 2\nfind shoots[0].dbh_m\nset {typed}\ndump")[0]
         expect_in(words, screen.note)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""View 7: how sure the answer is, and what it depends on; the uncertainty in the column on the right; ranges edited there."""
+"""View 7: uncertainty of the answer and its causes; the uncertainty in the column on the right; ranges edited there."""
 import json
 import math
 import re
@@ -20,7 +20,7 @@ NO_LAW = WOOD.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
 
 
 def test_nothing():
-    """A scene with nothing in doubt, or whose uncertainty is not asked for, says which, computes nothing, and has none in the column"""
+    """A scene without uncertainty, or with it disabled, says so, computes nothing, and has none in the column"""
     told = {NO_LAW + "uncertainty: none\n": "Uncertainty was not computed: the scene has 'uncertainty: none'",
             NO_LAW + "uncertainty: []\n": "Nothing in this scene is marked as assumed"}
     with Place() as place:
@@ -32,7 +32,7 @@ def test_nothing():
 
 
 def test_so_far():
-    """While the uncertainty is computed every view's answer is one so far, with how much of it is known; not without one asked for."""
+    """While the uncertainty is computed every view's answer is preliminary, with its progress; not if it is disabled."""
     edited = "".join(f"key 3\nfind title\nset {view}\nkey {view}\ndump\n" for view in range(1, 9))
     with Place() as place:
         place.write("unsure.yaml", NO_LAW + UNCERTAINTY)
@@ -53,7 +53,7 @@ def test_so_far():
 
 
 def test_view():
-    """View 7 at 80x24 and 200x50: the answer with both errors as the batch has it, the inputs in their order, the column"""
+    """View 7 at 80x24 and 200x50: the answer with both errors as in the batch, the inputs in order, the column"""
     with Place() as place:
         place.write("unsure.yaml", NO_LAW + UNCERTAINTY)
         small, large, slope = place.play("key 7\nwait idle\ndump\nresize 200 50\ndump\nkey 1\ndump", "unsure.yaml")
@@ -63,7 +63,7 @@ def test_view():
     figure, = (f for f in run["figures"] if f["figure"] == "exceed_probability" and f["against"] is None)
     band = [round(figure["uncertainty"][k] * 1000) for k in ("p5", "p95")]
     wooded = finer["options"][0]["controls"][-1]["wooded"]
-    found = wooded["exceed_probability"] * 1000  # as all other views have it, not that of the few rocks of each scene
+    found = wooded["exceed_probability"] * 1000  # equal in all views, not from the few rocks of each scene
     ends = math.floor(wooded["exceed_lo"] * 1000), math.ceil(wooded["exceed_hi"] * 1000)
     for screen in (small, large):
         screen.whole().has("Measure first: stem strength U, J/m³, upper")
@@ -78,7 +78,7 @@ def test_view():
 
 
 def test_scripts_look_first():
-    """A script computes no uncertainty before it looks at it; then every edit computes it anew"""
+    """A script computes no uncertainty before its first view; then every edit computes it again"""
     with Place() as place:
         place.write("unsure.yaml", NO_LAW + UNCERTAINTY)
         before, first, edited, undone = place.play(
@@ -90,7 +90,7 @@ def test_scripts_look_first():
 
 
 def test_ranges():
-    """A range of the scene is edited in view 7, and undone; a names another input with the range that it has"""
+    """A range of the scene is edited in view 7, and undone; a names another input with its range"""
     with Place() as place:
         place.write("unsure.yaml", NO_LAW + UNCERTAINTY)
         start, wider, back = place.play(
@@ -107,7 +107,7 @@ def test_ranges():
 
 
 def test_options():
-    """Options: whether they separate, for the one that is shown"""
+    """Options: whether they are separated, for the shown one"""
     with Place() as place:
         place.write("cuts.yaml", CUTS + UNCERTAINTY.replace("forest[0]", "options[*].forest[0]"))
         thick, thin, further, compared = place.play(
@@ -122,7 +122,8 @@ def test_options():
 
 
 def test_over_the_rotation():
-    """Tab in view 7, and view 5: the mean over the years with its doubt, and the order of the options, as --sensitivity --years has them"""
+    """Tab in view 7, and view 5: mean over the years with its uncertainty, and the order of options, as in --sensitivity
+    --years"""
     option = "  - name: {}\n    forest: [{{from_m: 10, to_m: 60, stand: {}}}]\n"
     stands = ("{name: grows, stools: {per_ha: 800, spacing_m: 0.3}, shoots: [{per_ha: 2000, dbh_m: 0.08, height_m: 8}],"
               " growth: {shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.1, height_most_m: 14, height_rate_1_y: 0.1}},"
@@ -156,7 +157,7 @@ def test_over_the_rotation():
 
 
 def test_units():
-    """The ends of a diameter's range stand in cm under their head, and are typed in cm; those of a density in its own unit"""
+    """The ends of a diameter's range are in cm under their head, and typed in cm; those of a density in its own unit"""
     rows = "uncertainty:\n  - {path: 'forest[0].stand.trees[0].dbh_m', lo: 0.15, hi: 0.25}\n  - {path: rock.density_kg_m3, lo: 2400, hi: 2700}\n"
     with Place() as place:
         place.write("wide.yaml", NO_LAW + rows)
@@ -167,7 +168,7 @@ def test_units():
 
 
 def test_many_options():
-    """At 80x24 eight options: those without room are counted, the words go on, with a mark; four have room"""
+    """At 80x24 eight options: those that do not fit are counted, the text continues, with a mark; four fit"""
     names = ["one", "two", "three", "four", "five", "six", "seven", "eight"]
     head, (thick, *_), tail = CUTS.split("options:")[0], CUTS.split("  - name: ")[1:], CUTS[CUTS.index("simulation:"):]
     with Place() as place:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is said about values that are not known goes along with the values, and never refuses an edit."""
+"""Uncertainty rows follow their values through edits, and never refuse one."""
 import re
 import sys
 from pathlib import Path
@@ -32,7 +32,7 @@ ALL, STOOLS, TREE, LOWER, ROCK = re.findall(r'path: "([^"]+)"', UNCERTAIN)
 
 
 def test_items_that_go():
-    """A belt or a class of trees that is deleted takes its rows along; those behind it keep theirs, at their new places."""
+    """Deleting a belt or a class of trees deletes its rows; later items keep theirs, at their new places."""
     expect_equal(paths_after(""), [ALL, STOOLS, TREE, LOWER, ROCK], "nothing done")
     expect_equal(paths_after("find forest[1]\nkey d"), [ALL, STOOLS, TREE, ROCK], "the lower belt deleted")
     expect_equal(paths_after("find forest[0]\nkey d"), [ALL, LOWER.replace("[1]", "[0]"), ROCK], "the upper belt deleted")
@@ -42,13 +42,13 @@ def test_items_that_go():
 
 
 def test_items_that_come():
-    """A belt that is split leaves the rows of its upper part and of the belts behind it."""
+    """Splitting a belt keeps the rows of its upper part and of later belts."""
     expect_equal(paths_after("find forest[0]\nkey y"), [ALL, STOOLS, TREE, LOWER.replace("forest[1]", "forest[2]"), ROCK],
                  "the upper belt split")
 
 
 def test_items_that_move():
-    """< and > on a class of trees take its rows along."""
+    """< and > on a class of trees move its rows."""
     moved = [ALL, STOOLS, TREE.replace("trees[1]", "trees[0]"), LOWER, ROCK]
     expect_equal(paths_after("key 2\nfind trees[0]\nkey >"), moved, "the first class moved behind the second")
     expect_equal(paths_after("key 2\nfind trees[1]\nkey <"), moved, "the second class moved before the first")
@@ -67,7 +67,7 @@ uncertainty:
 
 
 def own_after(keys):
-    """The rows of a stand in its own file, as the scene saves them; None: they are still the file's."""
+    """Return the rows of a stand in its own file, as saved in the scene; None: still the file's."""
     with Place() as place:
         place.write("own.yaml", OWN)
         place.write("scene.yaml", re.sub(r"(?s)forest:.*?(?=\n\w|\Z)", "forest: [{from_m: 10, to_m: 80, stand: own.yaml}]", FAST))
@@ -78,7 +78,7 @@ def own_after(keys):
 
 
 def test_rows_of_a_stand():
-    """The rows of a stand go along with its classes too, over those of the file that it starts from."""
+    """The rows of a stand follow its classes too, overriding those of its base file."""
     expect_equal(own_after(""), None, "nothing done")
     expect_equal(own_after("key 2\nfind trees[0]\nkey d"), ["stools.per_ha", "trees[0].dbh_m"], "the first class deleted")
     expect_equal(own_after("key 2\nfind trees[1]\nkey d"), ["stools.per_ha"], "the second class deleted")
@@ -87,7 +87,7 @@ def test_rows_of_a_stand():
 
 
 def test_options():
-    """Rows about the forest are about the option 'current' once there are options, whatever their order."""
+    """Rows about the forest refer to the option 'current' once there are options, in any order."""
     current = [p.replace("forest", "options[current].forest", 1) for p in (STOOLS, TREE, LOWER)]
     everywhere = ALL.replace("forest", "options[*].forest", 1)
     expect_equal(paths_after("key 5 a\ntype large-reserves\nkey Enter"), [everywhere, *current, ROCK], "an option added")
@@ -96,7 +96,7 @@ def test_options():
 
 
 def test_stand_replaced():
-    """Another stand is taken whatever is said of the old one; that stays, for the next one."""
+    """Another stand is accepted for any rows of the old one; these stay for the next one."""
     expect_equal(paths_after("key 2\nkey p\ntype bare\nkey Enter"), [ALL, STOOLS, TREE, LOWER, ROCK], "a bare stand")
 
 

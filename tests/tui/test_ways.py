@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow
-"""The ways of single rocks in the terminal program, piece by piece, and the stems that they come to."""
+"""Trajectories of single rocks in the terminal program, step by step, and the stems they meet."""
 import re
 import sys
 from pathlib import Path
@@ -12,7 +12,7 @@ from harness import expect, expect_equal, expect_in, expect_near, run_all  # noq
 
 
 def test_rocks_step():
-    """. and , step through the rocks' ways, in the picture the arrows too."""
+    """. and , step through the trajectories, and so do the arrows in the picture."""
     for scene in ("fast.yaml", "wood.yaml"):
         screens = fast("""wait idle
             key .
@@ -34,7 +34,7 @@ def test_rocks_step():
 
 
 def stepped(text, steps, size="100 40", before="key ."):
-    """View 1 with the picture in front, one rock's way piece by piece; then view 2."""
+    """Return view 1 with the picture in front, one trajectory step by step; then view 2."""
     with Place() as place:
         place.write("wood.yaml", text)
         script = f"resize {size}\nwait idle\nkey 1\n{before}\ndump\nkey Tab\n" + "key Down\ndump\n" * steps
@@ -44,7 +44,7 @@ HIT = re.compile(r"; hits a (shoot|tree) of ([\d.]+) cm: ([\d.]+) of ([\d.]+) kJ
 
 
 def test_step_stems():
-    """A rock stepped along its way tells each stem it hits, what that takes of what it has, and where it is stopped."""
+    """Stepping along a trajectory reports each hit stem, its share of the energy, and where it stops the rock."""
     whole, *pieces = stepped(WOOD, 60)
     total = int(re.search(r"(\d+) stems hit", whole.note).group(1))
     count = int(re.match(r"rock 1, piece 1 of (\d+):", pieces[0].note).group(1))
@@ -73,7 +73,7 @@ def test_step_stems():
 
 
 def test_step_logs():
-    """A log in the way is told with what it takes; by the index no stem is told."""
+    """A log on the trajectory is reported with its energy; the index reports no stem."""
     energy = "      energy: {model: brauner"
     logs = "      logs: {per_ha: 300, length_m: 8, diameter_m: 1.5, energy_kJ: 2}\n" + energy
     for model, stems in (("stems", True), ("index", False)):
@@ -85,7 +85,7 @@ def test_step_logs():
 
 
 def test_step_plan():
-    """View 2 shows the stems of the rock's way, up to where it has been stepped; a pattern of many above it or without it."""
+    """View 2 shows the stems of the trajectory up to its step; above it or without it a pattern of many."""
     for size in ("100 40", "200 50", "80 50"):
         screens = fast(f"""resize {size}
             wait idle
@@ -122,7 +122,7 @@ def test_step_plan():
 
 
 def test_plan_live():
-    """View 2: the plan follows a change of the stand and of the option; no stem of the wood before it is shown."""
+    """View 2: the plan follows a change of the stand and of the option; no stem of the former forest is shown."""
     with Place() as place:
         edits = "find trees[0]\nset 700\nfind trees[1]\nset 1\nfind shoots[0].per_ha\nset 4000\nwait idle\nclear\ndump"
         before, after = place.play(f"resize 100 44\nwait idle\nkey 1\ndump\nkey 2\nclear\ndump\n{edits}", "wood.yaml")[1:]

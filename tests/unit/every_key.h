@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes that together give every key, and the place of a parameter in them. */
+/* Scenes that together contain every key, and the place of a parameter in them. */
 #ifndef EVERY_KEY_H
 #define EVERY_KEY_H
 
@@ -10,7 +10,7 @@ static const char *const scenes[] = {"tests/unit/every_key/cylinder.yaml", "test
                                      "tests/unit/every_key/block.yaml",    "tests/unit/every_key/low.yaml",
                                      "tests/unit/every_key/blocks.yaml"};
 
-/* The first item of each list; `point`: what follows it in a list of points. */
+/* Write the path of a parameter in the first item of each list; `point`: its index in a list of points. */
 static inline void first_place(const char *path, const struct field *f, const char *point, struct text *to)
 {
     for (; *path; path++) {

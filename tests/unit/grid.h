@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A grid of cells to draw on, and what it should show. */
+/* A grid of cells to draw on, and its expected content. */
 #ifndef GRID_H
 #define GRID_H
 
@@ -15,7 +15,7 @@
 #define BLOCK   CEDUO_CHARSET_BLOCK
 #define ASCII   CEDUO_CHARSET_ASCII
 
-/* The last character set; for loops over all of them. */
+/* Last character set, for loops over all of them. */
 #define LAST_CHARSET CEDUO_CHARSET_ASCII
 
 static inline struct ceduo_cells *cells_in(int width, int height, enum ceduo_charset charset)
@@ -25,8 +25,8 @@ static inline struct ceduo_cells *cells_in(int width, int height, enum ceduo_cha
     return cells;
 }
 
-/* A frame over the whole grid in which x and y are dots, counted from the lower left. */
-static inline struct ceduo_frame dots_of(const struct ceduo_cells *cells)
+/* Return a frame over the whole grid with x and y in dots from the lower left. */
+static inline struct ceduo_frame frame_in_dots(const struct ceduo_cells *cells)
 {
     return (struct ceduo_frame){
         .width = cells->width,
@@ -36,8 +36,8 @@ static inline struct ceduo_frame dots_of(const struct ceduo_cells *cells)
     };
 }
 
-/* A canvas of such cells, as frames see it. */
-static inline const struct ceduo_canvas *kind_of(enum ceduo_charset charset)
+/* Return a canvas with this character set, as frames see it. */
+static inline const struct ceduo_canvas *find_canvas(enum ceduo_charset charset)
 {
     static struct ceduo_canvas canvas;
     canvas = (struct ceduo_canvas){.dots_x = charset == ASCII ? 1 : 2, .dots_y = charset == BRAILLE ? 4 : 2};
@@ -66,7 +66,7 @@ static inline void expect_roles(const struct ceduo_cells *cells, const char *exp
     free(roles);
 }
 
-/* Compares and blanks the grid for the next picture. */
+/* Compare the grid, then clear it for the next picture. */
 static inline void expect_and_clear(struct ceduo_cells *cells, const char *expected)
 {
     expect_text(cells, expected);

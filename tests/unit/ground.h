@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A sphere of 1 m over one straight slope, for closed forms: it flies from a height, or rolls. */
+/* A sphere of 1 m on one straight slope, for closed forms: it flies from a height, or rolls. */
 #ifndef GROUND_H
 #define GROUND_H
 
@@ -7,7 +7,7 @@
 
 #include "ceduo/ceduo.h"
 
-/* It points into itself: never copy it. */
+/* Contains pointers into itself: never copy it. */
 struct ground {
     struct ceduo_scene scene;
     double x[2], z[2];
@@ -15,7 +15,7 @@ struct ground {
     struct ceduo_option option;
 };
 
-/* So many metres along that fall `fall`; the rock leaves `height` above their begin with vx, vz. */
+/* Make a slope of length `along` that falls by `fall`; the rock leaves `height` above its top with vx, vz. */
 static inline void ground_make(struct ground *g, double along, double fall, double height, double vx, double vz)
 {
     *g = (struct ground){.scene = ceduo_scene_default(), .x = {0, along}, .z = {0, -fall}};

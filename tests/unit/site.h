@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A small site whose rocks are made up, or may be flown. */
+/* A small site with invented results; its rocks can also be simulated. */
 #ifndef SITE_H
 #define SITE_H
 
@@ -14,8 +14,8 @@
 #define ENERGIES      8
 #define WOOD_ENERGIES 5
 
-/* A slope of 100 m that falls 60 m, a path at 40 m and a road at 80 m, a coppice with standards between. Numbers are
- * round so that a reader can check a picture by eye. It points into itself: never copy it. */
+/* A slope of 100 m that falls 60 m, a path at 40 m and a road at 80 m, a coppice with standards between. Round numbers let a
+ * reader check a picture by eye. Contains pointers into itself: never copy it. */
 struct site {
     struct ceduo_scene scene;
     double x[3], z[3];
@@ -77,7 +77,7 @@ static void set_forest(struct site *s)
 static const struct ceduo_envelope no_rock = {
     .mean_energy = NAN, .height = {NAN, NAN, NAN, NAN}, .energy = {NAN, NAN, NAN, NAN}};
 
-/* Heights of 1, 2, 3 m and energies of 10 kJ a cell more from place to place; eight rocks of ten at the path. */
+/* Set heights of 1, 2, 3 m and energies that rise by 10 kJ per cell; eight rocks in ten reach the path. */
 static void set_bare(struct site *s)
 {
     static const double kj[ENERGIES] = {12, 21, 25, 33, 34, 38, 47, 55};
@@ -110,7 +110,7 @@ static void set_bare(struct site *s)
                                           .trajectories = &s->line};
 }
 
-/* Lower and slower, and no further than 70 m; five rocks of ten at the path. */
+/* Set lower and slower rocks, at most to 70 m; five in ten reach the path. */
 static void set_wood(struct site *s)
 {
     static const double kj[WOOD_ENERGIES] = {8, 15, 21, 25, 41};
@@ -167,7 +167,7 @@ static void site_init(struct site *s)
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
 }
 
-/* The same with rocks among stems. Where none stand what is to be seen is the slope without forest. */
+/* The same site with rocks among stems. An area without stems has the results without forest. */
 static void wooded_site_init(struct site *s)
 {
     site_init(s);

@@ -4,9 +4,9 @@
 
 #include "unit/grid.h"
 
-/* ---- Ticks ---- */
+/* ---- ticks ---- */
 
-/* The labels of the ticks of a range, with a blank between. */
+/* Compare the tick labels of a range, joined by blanks. */
 static void expect_ticks(double lo, double hi, int max_count, const char *expected)
 {
     double ticks[CEDUO_TICKS_MAX], step;
@@ -29,10 +29,10 @@ TEST(ticks_are_round)
         expect_ticks(strtod(row.at[0], NULL), strtod(row.at[1], NULL), atoi(row.at[2]), row.at[3]);
     double tenths[4], step;
     assert_int_equal(ceduo_ticks(0, 0.3, 4, tenths, &step), 4);
-    EXPECT(tenths[3], ==, 0.3); /* the nearest number there is, and not 3 * 0.1 */
+    EXPECT(tenths[3], ==, 0.3); /* the double nearest to 0.3, not 3 * 0.1 */
 }
 
-TEST(ticks_are_evenly_spaced_and_never_too_many)
+TEST(ticks_are_evenly_spaced_and_limited)
 {
     double ticks[CEDUO_TICKS_MAX], step;
     for (int k = -12; k <= 12; ++k) {
@@ -54,7 +54,7 @@ TEST(ticks_are_evenly_spaced_and_never_too_many)
     assert_in_range(ceduo_ticks(0, 99, 100000, ticks, &step), 1, CEDUO_TICKS_MAX);
 }
 
-TEST(tick_labels_have_no_minus_nought)
+TEST(tick_labels_have_no_negative_zero)
 {
     static const struct {
         double value, step;
@@ -67,10 +67,10 @@ TEST(tick_labels_have_no_minus_nought)
     }
 }
 
-/* ---- Axes ---- */
+/* ---- axes ---- */
 
-/* Counts the runs of text in a row that are at least two blanks apart. */
-static int words_in(const char *row)
+/* Count the texts in a row that are at least two blanks apart. */
+static int count_texts(const char *row)
 {
     int words = 0, blanks = 2;
     for (; *row != '\0'; ++row) {
@@ -97,7 +97,7 @@ TEST(bottom_labels_never_touch)
             int ticks = 0;
             for (const char *c = ceduo_text_string(&line); *c != '\0'; ++c)
                 ticks += *c == '+';
-            assert_int_equal(words_in(ceduo_text_string(&labels)), ticks);
+            assert_int_equal(count_texts(ceduo_text_string(&labels)), ticks);
             EXPECT(strlen(ceduo_text_string(&labels)), <=, (size_t)width + 2);
         }
     }
@@ -107,7 +107,7 @@ TEST(axis_width_holds_every_label)
 {
     for (int height = 1; height < 40; ++height) {
         struct ceduo_frame frame = {.width = 4, .height = height, .x1 = 1, .y0 = -12.5, .y1 = 3.3 * height};
-        frame.left = ceduo_frame_axis_width(&frame, kind_of(BRAILLE));
+        frame.left = ceduo_frame_axis_width(&frame, find_canvas(BRAILLE));
         LOCAL(ceduo_cells, cells) = cells_in(frame.left + 4, height, BRAILLE);
         ceduo_canvas_axis_left(&cells->canvas, &frame);
         int widest = 0, last_tick = -2;
@@ -115,12 +115,12 @@ TEST(axis_width_holds_every_label)
             bool tick = ceduo_cells_glyph(cells, frame.left - 1, row) == 0x2524;
             bool label = frame.left > 1 && ceduo_cells_glyph(cells, frame.left - 2, row) != ' ';
             assert_int_equal(tick, label);
-            assert_false(tick && height > 3 && row == last_tick + 1); /* a row between two labels */
+            assert_false(tick && height > 3 && row == last_tick + 1); /* one row between two labels */
             last_tick = tick ? row : last_tick;
             widest = ceduo_cells_glyph(cells, 0, row) != ' ' ? 1 : widest;
         }
-        assert_int_equal(widest, 1); /* and wastes no column */
+        assert_int_equal(widest, 1); /* no column is wasted */
     }
     struct ceduo_frame bad = {.width = 4, .height = 0, .x1 = 1, .y1 = 1};
-    assert_int_equal(ceduo_frame_axis_width(&bad, kind_of(BRAILLE)), 0);
+    assert_int_equal(ceduo_frame_axis_width(&bad, find_canvas(BRAILLE)), 0);
 }

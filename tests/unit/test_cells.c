@@ -3,7 +3,7 @@
 #include "table.h"
 #include "unit/grid.h"
 
-/* ---- The cells ---- */
+/* ---- cells ---- */
 
 TEST(sizes_are_limited)
 {
@@ -34,16 +34,16 @@ TEST(text_of_a_row_ends_at_its_last_character)
     assert_string_equal(text.bytes, "a±b");
 }
 
-/* ---- Roles ---- */
+/* ---- roles ---- */
 
-TEST(rank_decides_the_role_whoever_draws_first)
+TEST(rank_decides_the_role_in_any_order)
 {
     static const enum ceduo_role falling[] = {
         CEDUO_ROLE_CURSOR, CEDUO_ROLE_TRAJECTORY, CEDUO_ROLE_CONTROL, CEDUO_ROLE_MEAN, CEDUO_ROLE_ENVELOPE, CEDUO_ROLE_STEM,
         CEDUO_ROLE_STOOL,  CEDUO_ROLE_GROUND,     CEDUO_ROLE_CLOUD,   CEDUO_ROLE_AXIS, CEDUO_ROLE_DIM,
     };
     LOCAL(ceduo_cells, cells) = cells_in(2, 1, BRAILLE);
-    struct ceduo_frame frame = dots_of(cells);
+    struct ceduo_frame frame = frame_in_dots(cells);
     for (size_t i = 1; i < sizeof falling / sizeof falling[0]; ++i) {
         ceduo_cells_clear(cells);
         draw_point(cells, &frame, falling[i - 1], 0, 0);
@@ -52,11 +52,11 @@ TEST(rank_decides_the_role_whoever_draws_first)
         draw_point(cells, &frame, falling[i - 1], 3, 0);
         assert_int_equal(ceduo_cells_role(cells, 0, 0), falling[i - 1]);
         assert_int_equal(ceduo_cells_role(cells, 1, 0), falling[i - 1]);
-        expect_text(cells, "⣀⣀\n"); /* the dots of both are seen */
+        expect_text(cells, "⣀⣀\n"); /* the dots of both are visible */
     }
 }
 
-/* ---- Text ---- */
+/* ---- text ---- */
 
 TEST(odd_characters_become_question_marks)
 {

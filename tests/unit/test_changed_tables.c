@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* A random change in a good table: a cell removed or doubled, a quote or a separator put in, a line cut short. The figures are
- * those of the good table, or the table is refused. CHANGES=10000 tries as many of each kind. Two changes leave a good table that
- * says something else, and are not made: a cut within the last cell of a line, and a cut before its first byte. */
+/* A random change to a valid table: a cell removed or repeated, a quote or separator inserted, a line cut. The figures equal
+ * those of the valid table, or the table is refused. CHANGES=10000 tries 10000 of each kind. Two changes would give another
+ * valid table and are not made: a cut within the last cell of a line, and a cut before its first byte. */
 #include "local.h"
 
 #include <stdio.h>
@@ -104,10 +104,10 @@ static size_t below(size_t n)
     return (size_t)line_uniform(&state, 0, (double)n);
 }
 
-/* Cells of a text: where each begins and ends. */
+/* Begin and end of a cell in a text. */
 struct cell {
     size_t from, to;
-    bool last; /* of its line */
+    bool last; /* last of its line */
 };
 
 static size_t find_cells(const char *text, char separator, struct cell *cells)
@@ -141,7 +141,7 @@ static void change(char *text, char separator, enum change kind)
     const struct cell *cell = &cells[below(n)];
     size_t length = cell->to - cell->from + 1;
     switch (kind) {
-    case REMOVE: /* with its separator; of the last cell the one before it */
+    case REMOVE: /* with its separator; the last cell with the one before it */
         splice(text, cell->from - cell->last, cell->to + !cell->last, "", 0);
         break;
     case DOUBLE:

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures of few values, of none, and of values beyond every bin; a search for a value that is given up. */
+/* Statistics of few values, without values, and of values outside all bins; an aborted search for a value. */
 #include "expect.h"
 #include "local.h"
 
@@ -21,7 +21,7 @@ static void expect_near(double found, double wanted, double relative)
         EXPECT_NEAR(found, wanted, relative * wanted);
 }
 
-/* Values of all sizes, some of them 0: as sorted. */
+/* Values of all sizes, some 0: equal to sorted values. */
 TEST(distributions_of_few_values)
 {
     uint64_t bits = 1;
@@ -55,7 +55,7 @@ TEST(distributions_of_few_values)
     }
 }
 
-/* ---- looking for a value that is given up ---- */
+/* ---- aborted search ---- */
 
 static atomic_bool cancel;
 static unsigned looked;
@@ -75,10 +75,10 @@ static enum ceduo_status refuse(void *context, double value, double *goal)
     return ++looked >= *when ? CEDUO_BAD_SLOPE : CEDUO_OK;
 }
 
-/* Wherever the search stands: no value is looked at after it, and none is found. */
+/* At any stage: no further value is evaluated, and none is found. */
 TEST(a_search_ends_at_once)
 {
-    for (int kind = 0; kind < 4; kind++) { /* where nothing passes, all is looked through */
+    for (int kind = 0; kind < 4; kind++) { /* if nothing passes, all values are tried */
         struct ceduo_found found;
         double target = kind < 2 ? .3 : -1;
         struct ceduo_find_def def = {.lo = 1, .hi = 1000, .whole = kind % 2, .target = target, .cancel = &cancel};
@@ -103,8 +103,8 @@ TEST(a_search_ends_at_once)
     }
 }
 
-/* Goals without end, and one that is met exactly: by halves. */
-static enum ceduo_status steps_down(void *context, double value, double *goal)
+/* Unbounded goals, and one that is met exactly, by bisection. */
+static enum ceduo_status decrease_by_steps(void *context, double value, double *goal)
 {
     const double *levels = context;
     *goal = value < 3 ? levels[0] : levels[1];
@@ -117,7 +117,7 @@ TEST(goals_without_end)
     for (size_t i = 0; i < sizeof levels / sizeof levels[0]; i++) {
         struct ceduo_found found;
         double pair[2] = {levels[i][0], levels[i][1]};
-        const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = .5, .goal = steps_down, .context = pair};
+        const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = .5, .goal = decrease_by_steps, .context = pair};
         assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
         assert_true(found.found);
         EXPECT(found.value, >=, 3);
@@ -127,26 +127,26 @@ TEST(goals_without_end)
     }
 }
 
-static enum ceduo_status falls(void *context, double value, double *goal)
+static enum ceduo_status decrease(void *context, double value, double *goal)
 {
     const double *top = context;
     *goal = *top - value;
     return CEDUO_OK;
 }
 
-/* A tolerance that is met by the first step; and a range so large that halving does not come to an end: given up. */
+/* A tolerance met by the first step; and a range so large that bisection does not end: aborted. */
 TEST(few_values_and_too_many)
 {
     struct ceduo_found found;
     double top = 10;
-    struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 5.5, .goal = falls, .context = &top, .tolerance = .5};
+    struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 5.5, .goal = decrease, .context = &top, .tolerance = .5};
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
     assert_true(found.found);
     EXPECT(found.value, >=, 4.5);
     EXPECT(found.value, <, 4.5 + 4);
     EXPECT(found.side, ==, CEDUO_SMALLEST);
     assert_int_equal(found.evaluations, 3);
-    def = (struct ceduo_find_def){.lo = 0, .hi = 1e300, .whole = true, .target = 5.5, .goal = falls, .context = &top};
+    def = (struct ceduo_find_def){.lo = 0, .hi = 1e300, .whole = true, .target = 5.5, .goal = decrease, .context = &top};
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
     assert_true(found.found);
     EXPECT(found.value, >=, 5);

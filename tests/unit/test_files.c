@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files: where they are found, what is read of them, how they are written and what is left beside them. */
+/* Files: how they are found, read and written, and which temporary files remain. */
 #include "expect.h"
 #include "local.h"
 
@@ -63,7 +63,7 @@ TEST_WITH(folders_of_the_environment, folder_set_up_profiles, folder_tear_down)
         in_folder(path, parts[i]);
         assert_int_equal(mkdir(path, 0700), 0);
     }
-    char file[256]; /* what should be the folder is a file */
+    char file[256]; /* a file instead of the folder */
     in_folder(file, "file");
     assert_int_equal(mkdir(file, 0700), 0);
     put("file/ceduo", "x");
@@ -103,7 +103,7 @@ TEST_WITH(folders_are_listed, folder_set_up_profiles, folder_tear_down)
     assert_int_equal(n, LENGTH(wanted));
     for (size_t i = 0; i < n; i++)
         assert_string_equal(list[i], wanted[i]);
-    for (int i = 0; i < 100; i++) { /* more than are first made room for */
+    for (int i = 0; i < 100; i++) { /* more than the initial capacity */
         char name[64];
         snprintf(name, sizeof name, "ceduo/stands/n%02d.yaml", i);
         put(name, "x");
@@ -122,7 +122,7 @@ static int descriptors(void)
     return n;
 }
 
-/* Names as long as a file system takes them, of characters of two bytes: its temporary's name is cut between two. */
+/* The longest names that a file system allows, of two-byte characters: the temporary file's name is cut between two. */
 TEST_WITH(long_names_are_written, folder_set_up_profiles, folder_tear_down)
 {
     char name[256] = "", path[512];
@@ -138,35 +138,35 @@ TEST_WITH(long_names_are_written, folder_set_up_profiles, folder_tear_down)
     }
 }
 
-static char told[400];
+static char problem[400];
 
-/* What a file holds; where it cannot be read, what is told is in `told`. */
-static bool take(const char *path, struct text *text, size_t most)
+/* Read a file into `text`; if that fails, put the message into `problem`. */
+static bool read_limited(const char *path, struct text *text, size_t max)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    const struct source *source = ceduo_file_read(&arena, path, most, &problems);
+    const struct source *source = ceduo_file_read(&arena, path, max, &problems);
     *text = (struct text){0};
     if (source)
         ceduo_text_append_n(text, source->bytes, source->length);
-    snprintf(told, sizeof told, "%s", ceduo_problems_print(&problems));
+    snprintf(problem, sizeof problem, "%s", ceduo_problems_print(&problems));
     assert_ptr_equal(arena.sources, source);
     return source != NULL;
 }
 
-static void expect_bytes(const char *path, size_t most, const char *bytes)
+static void expect_bytes(const char *path, size_t max, const char *bytes)
 {
     struct text text;
-    assert_true(take(path, &text, most));
+    assert_true(read_limited(path, &text, max));
     assert_string_equal(ceduo_text_string(&text), bytes);
     ceduo_text_free(&text);
 }
 
-static void expect_told(const char *path, size_t most, const char *words)
+static void expect_problem(const char *path, size_t max, const char *words)
 {
     struct text text;
-    assert_false(take(path, &text, most));
-    assert_non_null(strstr(told, words));
+    assert_false(read_limited(path, &text, max));
+    assert_non_null(strstr(problem, words));
 }
 
 TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
@@ -175,13 +175,13 @@ TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
     put("some", "twelve bytes");
     in_folder(path, "some");
     expect_bytes(path, 12, "twelve bytes");
-    expect_told(path, 11, "larger than 0 MiB");
-    expect_told(folder, 11, "Is a directory");
+    expect_problem(path, 11, "larger than 0 MiB");
+    expect_problem(folder, 11, "Is a directory");
     in_folder(path, "none");
-    expect_told(path, 11, "No such file");
-    expect_told("/dev/zero", 11, "a device or a socket; name a file");
-    expect_bytes("/proc/self/status", 11, ""); /* it says that it is empty */
-    /* through links to a file that is not there yet, by relative and absolute ways; one that leads to itself is refused */
+    expect_problem(path, 11, "No such file");
+    expect_problem("/dev/zero", 11, "a device or a socket; name a file");
+    expect_bytes("/proc/self/status", 11, ""); /* its reported size is 0 */
+    /* through links to a missing file, by relative and absolute paths; a link to itself is refused */
     in_folder(link, "link");
     in_folder(to, "link2");
     assert_int_equal(symlink("link2", link), 0);
@@ -193,45 +193,45 @@ TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
     assert_int_equal(symlink("loop", link), 0);
     assert_false(ceduo_file_write(link, "x", 1));
     assert_int_equal(errno, ELOOP);
-    /* without a folder in its name: in the one that is the present */
-    char here[4096];
-    assert_non_null(getcwd(here, sizeof here));
+    /* a bare name is in the current folder */
+    char cwd[4096];
+    assert_non_null(getcwd(cwd, sizeof cwd));
     assert_int_equal(chdir(folder), 0);
     assert_int_equal(symlink("bare", "bare-link"), 0);
     assert_true(ceduo_file_write("bare-link", "y", 1));
     expect_bytes("bare", 9, "y");
-    assert_int_equal(chdir(here), 0);
+    assert_int_equal(chdir(cwd), 0);
 }
 
 TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
 {
-    char path[256], link[256], other[256], none[256];
+    char path[256], link[256], second[256], missing[256];
     put("some", "x");
     put("other", "x");
     in_folder(path, "some");
     in_folder(link, "link");
-    in_folder(other, "other");
-    in_folder(none, "none");
+    in_folder(second, "other");
+    in_folder(missing, "none");
     assert_int_equal(symlink("some", link), 0);
     assert_true(ceduo_file_is_same(path, path));
     assert_true(ceduo_file_is_same(path, link));
     assert_true(ceduo_file_is_same(link, path));
-    assert_false(ceduo_file_is_same(path, other) || ceduo_file_is_same(path, none) || ceduo_file_is_same(none, path));
-    assert_false(ceduo_file_is_same(folder, folder)); /* nothing is read from one, or written */
+    assert_false(ceduo_file_is_same(path, second) || ceduo_file_is_same(path, missing) || ceduo_file_is_same(missing, path));
+    assert_false(ceduo_file_is_same(folder, folder)); /* folders are neither read nor written */
     int was = dup(STDIN_FILENO), fd = open(path, O_RDONLY);
     assert_int_equal(dup2(fd, STDIN_FILENO), STDIN_FILENO);
     close(fd);
     assert_true(ceduo_file_is_same(link, "-"));
-    assert_false(ceduo_file_is_same(other, "-"));
+    assert_false(ceduo_file_is_same(second, "-"));
     close(STDIN_FILENO);
     assert_false(ceduo_file_is_same(link, "-"));
-    expect_told("-", 9, "standard input: cannot read it: Bad file descriptor");
+    expect_problem("-", 9, "standard input: cannot read it: Bad file descriptor");
     dup2(was, STDIN_FILENO);
     close(was);
 }
 
-/* A socket is no file, and one that may not be written is not replaced. */
-TEST_WITH(what_cannot_be_written, folder_set_up_profiles, folder_tear_down)
+/* A socket is not a file, and a read-only file is not replaced. */
+TEST_WITH(files_that_cannot_be_written, folder_set_up_profiles, folder_tear_down)
 {
     struct sockaddr_un address = {.sun_family = AF_UNIX};
     int s = socket(AF_UNIX, SOCK_STREAM, 0);
@@ -248,7 +248,7 @@ TEST_WITH(what_cannot_be_written, folder_set_up_profiles, folder_tear_down)
     for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
         assert_int_equal(chmod(path, modes[i]), 0);
         bool may = modes[i] == 0666;
-        bool root = geteuid() == 0; /* who may write anything: asked for as another user */
+        bool root = geteuid() == 0; /* root may write anything: try as another user */
         if (root)
             assert_int_equal(setreuid(65534, 0), 0);
         bool asked = ceduo_file_can_write(path), written = ceduo_file_write(path, "new", 3);
@@ -272,8 +272,8 @@ static void write_to_pipe(int signal)
         close(pipe_in);
 }
 
-/* A signal interrupts the reading, which goes on: what the pipe says is written by the signal's handler. */
-TEST(an_interrupted_reader_goes_on)
+/* A signal interrupts a read, which continues: the signal's handler writes to the pipe. */
+TEST(an_interrupted_read_continues)
 {
     int ends[2], was = dup(STDIN_FILENO);
     LOCAL_TEXT(text);
@@ -284,7 +284,7 @@ TEST(an_interrupted_reader_goes_on)
     const struct itimerval soon = {.it_value = {.tv_usec = 100000}};
     assert_int_equal(sigaction(SIGALRM, &action, NULL), 0);
     assert_int_equal(setitimer(ITIMER_REAL, &soon, NULL), 0);
-    assert_true(take("-", &text, 100));
+    assert_true(read_limited("-", &text, 100));
     assert_string_equal(text.bytes, "late");
     close(ends[0]);
     dup2(was, STDIN_FILENO);
@@ -301,8 +301,8 @@ static void give_up_at_third(int signal)
         gives_up = true;
 }
 
-/* A writer that waits is interrupted and goes on, until somebody gives up: nobody reads the pipe, which is full. */
-TEST(an_interrupted_writer_goes_on_until_it_is_cancelled)
+/* An interrupted write continues until it is cancelled: the pipe is full, and not read. */
+TEST(an_interrupted_write_continues_until_cancelled)
 {
     int ends[2];
     assert_int_equal(pipe2(ends, O_NONBLOCK), 0);

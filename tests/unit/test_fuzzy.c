@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is typed into a list finds: its letters in their order, words by their beginnings first. */
+/* Filtering a list by typed text: its letters in order, matches at word starts first. */
 #include "table.h"
 
 #include "base/text.h"
 #include "tui/picker.h"
 
-TEST(letters_stand_in_their_order)
+TEST(letters_match_in_order)
 {
     for (TABLE(row, "unit/words.txt", "letters in their order"))
         assert_string_equal(ceduo_fuzzy_match(row.at[0], row.at[1]) >= 0 ? "matches" : "not", row.at[2]);
 }
 
-TEST(beginnings_and_runs_are_better)
+TEST(word_starts_and_runs_match_better)
 {
     for (TABLE(row, "unit/words.txt", "better and worse"))
         EXPECT(ceduo_fuzzy_match(row.at[0], row.at[1]), >, ceduo_fuzzy_match(row.at[0], row.at[2]));
 }
 
-TEST(the_best_stands_first)
+TEST(the_best_match_comes_first)
 {
     struct picker p = {0};
     ceduo_picker_add(&p, "beech-large-reserves", "beech-large-reserves", "1", false);

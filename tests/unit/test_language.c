@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: brief */
-/* Text without a translation, as in the locale C, and text of data, which has none. */
+/* Text without a translation, as in the locale C, and data text, which is never translated. */
 #include "test.h"
 
 #include "base/language.h"
 
-TEST(as_it_stands)
+TEST(untranslated_text_is_unchanged)
 {
     for (int data = 0; data < 2; data++) {
         ceduo_language_set_data(data);

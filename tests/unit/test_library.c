@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The library as a program of somebody else meets it: scenes read from files, defaults, texts, and errors of GSL, whose own handler
- * would end that program. */
+/* The library in a foreign program: scenes read from files, defaults, texts, and GSL errors, whose default handler would
+ * abort. */
 #include "expect.h"
 
 #include <gsl/gsl_errno.h>
@@ -21,9 +21,9 @@
 #include "folder.h"
 #include "study/surrogate.h"
 
-/* ---- memory that GSL asks for ---- */
+/* ---- allocations of GSL ---- */
 
-#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ /* which have their own */
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ /* these have their own */
 #define FAILS 0
 #else
 #define FAILS 1
@@ -34,7 +34,7 @@ static _Thread_local long fail_at; /* 0: none */
 void *__libc_malloc(size_t n);
 void *__libc_calloc(size_t n, size_t size);
 
-/* In the place of the C library's for GSL as well, which `--wrap` of the linker would not reach. */
+/* Replaces the C library's malloc for GSL as well, which `--wrap` of the linker would not reach. */
 void *malloc(size_t n)
 {
     return fail_at > 0 && --fail_at == 0 ? NULL : __libc_malloc(n);
@@ -46,7 +46,7 @@ void *calloc(size_t n, size_t size)
 }
 #endif
 
-static int heard; /* errors that reach the handler of the caller */
+static int heard; /* errors passed to the caller's handler */
 
 static void on_error(const char *reason, const char *file, int line, int error)
 {
@@ -112,15 +112,15 @@ static enum ceduo_status fit_surface(void)
     return status;
 }
 
-/* Each of its allocations fails in turn. */
+/* Fail each allocation of a call in turn. */
 static void call_without_memory(enum ceduo_status (*call)(void))
 {
     long at = 1, failed = 0;
-    gsl_set_error_handler(NULL); /* GSL's own: it aborts */
+    gsl_set_error_handler(NULL); /* GSL's default, which aborts */
     for (bool all = false; FAILS && !all; at++) {
         fail_at = at;
         enum ceduo_status status = call();
-        all = fail_at > 0; /* it asked fewer times */
+        all = fail_at > 0; /* fewer allocations than that */
         fail_at = 0;
         assert_true(status == CEDUO_NO_MEMORY || status == CEDUO_OK);
         failed += status == CEDUO_NO_MEMORY;
@@ -130,7 +130,7 @@ static void call_without_memory(enum ceduo_status (*call)(void))
     EXPECT(call(), ==, CEDUO_OK);
 }
 
-TEST(gsl_without_memory_ends_no_program)
+TEST(gsl_without_memory_does_not_abort)
 {
     ROWS(call_without_memory, (fit_heights), (lay_points), (learn), (fit_surface));
 }
@@ -141,8 +141,8 @@ static void *err(void *unused)
     return unused;
 }
 
-/* A handler that is set within a call is there after it. */
-TEST(a_handler_set_meanwhile_stays)
+/* A handler set during a call stays after it. */
+TEST(a_handler_set_during_a_call_stays)
 {
     gsl_set_error_handler(NULL);
     bool before = ceduo_gsl_enter();
@@ -158,13 +158,13 @@ static int without_memory(void *unused)
     return GSL_SUCCESS;
 }
 
-TEST(a_call_of_gsl_without_memory_is_left)
+TEST(a_gsl_call_without_memory_returns)
 {
     assert_int_equal(ceduo_gsl_try(without_memory, NULL), GSL_ENOMEM);
 }
 
-/* In a thread that is in no call of the library, while another is. */
-TEST(errors_of_the_caller_stay_his)
+/* In a thread outside the library, while another is inside. */
+TEST(errors_of_the_caller_reach_its_handler)
 {
     pthread_t thread;
     gsl_set_error_handler(on_error);
@@ -184,8 +184,8 @@ TEST(errors_of_the_caller_stay_his)
     EXPECT(heard, ==, 2);
 }
 
-/* It has none of his own: GSL's aborts, as without the library. */
-TEST(errors_of_the_caller_end_him)
+/* Without a handler of its own GSL aborts, as without the library. */
+TEST(without_a_handler_gsl_aborts_the_caller)
 {
     pid_t child = fork();
     if (child == 0) {
@@ -228,7 +228,7 @@ TEST(a_scene_is_read)
     ceduo_scene_file_release(&r);
 }
 
-/* JSON writes what lies above U+FFFF as two halves. Places behind them are those of the file. */
+/* JSON writes characters above U+FFFF as surrogate pairs. Later positions are those of the file. */
 static void expect_title(const char *text, const char *title)
 {
     struct ceduo_scene_file r;
@@ -262,7 +262,7 @@ TEST(halves_of_a_character_are_joined)
     ceduo_scene_file_release(&r);
 }
 
-TEST(what_is_wrong_is_said)
+TEST(errors_are_reported)
 {
     struct ceduo_scene_file r;
     EXPECT(ceduo_scene_read_text("mill.yaml", "ceduo: scene/1\nrock: {shape: sphere, diameter_m: -1}\n", &r), ==,
@@ -294,26 +294,26 @@ static enum ceduo_status read_in_folder(void)
     return status;
 }
 
-/* In whatever library it fails, as that which reads the signs of an old spreadsheet. */
+/* In any library, including the one that decodes old spreadsheets. */
 TEST_WITH(a_scene_is_read_without_memory, folder_set_up, folder_tear_down)
 {
-    char line[18000]; /* longer than what goes into a page of an arena */
+    char line[18000]; /* longer than an arena page */
     snprintf(line, sizeof line, "Profil%17000s\nEntfernung;H\xf6he\n0;90\n100;0\n", "");
     put("line.csv", line);
     put("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\nslope: line.csv\ncontrols_m: [90]\n");
     call_without_memory(read_in_folder);
 }
 
-/* ---- the locale of the host program ---- */
+/* ---- locale of the host program ---- */
 
-/* Sets a locale with a decimal comma; compiles it in the folder of the test unless the machine has it. */
+/* Set a locale with a decimal comma; compile it in the test's folder if it is missing. */
 static bool set_comma(const char *name)
 {
     char command[256], full[32];
     snprintf(full, sizeof full, "%s.UTF-8", name);
     if (!setlocale(LC_ALL, full)) {
         snprintf(command, sizeof command, "localedef -i %s -f UTF-8 %s/%s >/dev/null 2>&1", name, folder, full);
-        if (system(command) != 0) /* NOLINT(cert-env33-c): a command of the test */
+        if (system(command) != 0) /* NOLINT(cert-env33-c): a fixed command */
             return false;
         setenv("LOCPATH", folder, 1);
         bool set = setlocale(LC_ALL, full);
@@ -324,7 +324,8 @@ static bool set_comma(const char *name)
     return localeconv()->decimal_point[0] == ',';
 }
 
-/* Figures of a scene with numbers from a table, from YAML, from a change and from defaults, of its run, and of what is printed. */
+/* Results of a scene with numbers from a table, from YAML, from a change and from defaults, of its run, and the printed
+ * text. */
 struct figures {
     double gravity, friction, rn, rt, diameter, z, control, default_gravity, default_friction;
     double reach, energy, speed;
@@ -332,7 +333,7 @@ struct figures {
     char message[512], number[32], text[32];
 };
 
-static struct figures take_figures(void)
+static struct figures read_figures(void)
 {
     struct ceduo_scene_file r;
     struct ceduo_results a;
@@ -376,16 +377,16 @@ static void compare_figures(const struct figures *was, const char *locale)
         print_message("no locale %s, and localedef cannot make it\n", locale);
         skip();
     }
-    struct figures is = take_figures();
-    assert_string_equal(setlocale(LC_NUMERIC, NULL) + 5, ".UTF-8"); /* stays set */
+    struct figures after = read_figures();
+    assert_string_equal(setlocale(LC_NUMERIC, NULL) + 5, ".UTF-8"); /* unchanged */
     double comma = strtod("1,5", NULL);
     setlocale(LC_ALL, "C");
     EXPECT(comma, ==, 1.5);
-    EXPECT_SAME(is, *was, gravity, friction, rn, rt, diameter, z, control, default_gravity, default_friction);
-    EXPECT_SAME(is, *was, reach, energy, speed, key);
-    assert_string_equal(is.message, was->message);
-    assert_string_equal(is.number, was->number);
-    assert_string_equal(is.text, was->text);
+    EXPECT_SAME(after, *was, gravity, friction, rn, rt, diameter, z, control, default_gravity, default_friction);
+    EXPECT_SAME(after, *was, reach, energy, speed, key);
+    assert_string_equal(after.message, was->message);
+    assert_string_equal(after.number, was->number);
+    assert_string_equal(after.text, was->text);
 }
 
 TEST_WITH(numbers_have_a_dot_in_every_locale, folder_set_up, folder_tear_down)
@@ -393,7 +394,7 @@ TEST_WITH(numbers_have_a_dot_in_every_locale, folder_set_up, folder_tear_down)
     put("line.csv", "x_m,z_m\n0,90.5\n60.25,40.5\n100,0\n");
     put("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [90.5]\n"
                       "slope: {csv: line.csv, segments: [{rn: 0.35, rt: 0.85, roughness_rad: 0.1}]}\n");
-    const struct figures was = take_figures();
+    const struct figures was = read_figures();
     ROWS(EXPECT, (was.gravity, ==, 9.81), (was.rn, ==, .35), (was.diameter, ==, .75), (was.z, ==, -50),
          (was.control, ==, 90.5));
     EXPECT(was.default_friction, >, 0);
@@ -413,7 +414,7 @@ static void enter_callback(void)
     if (now > atomic_load(&most_inside))
         atomic_store(&most_inside, now);
     atomic_fetch_add(&calls, 1);
-    usleep(2000); /* so that another thread would come in */
+    usleep(2000); /* so that another thread would interfere */
     atomic_fetch_sub(&inside, 1);
 }
 
@@ -491,8 +492,8 @@ TEST(one_thread_at_a_time_calls_the_caller)
 
 enum { YEARS = 20 };
 
-/* Set the energies that arrive in the years of the first option, each with rocks of its own. */
-static void take_years(const char *seed, double *energies)
+/* Get the energies that arrive in the years of the first option, each with independent rocks. */
+static void read_years(const char *seed, double *energies)
 {
     struct ceduo_scene_file r;
     struct ceduo_results a;
@@ -515,8 +516,8 @@ static void take_years(const char *seed, double *energies)
 TEST(no_seed_has_the_rocks_of_another_one_in_another_year)
 {
     double low[YEARS], high[YEARS];
-    take_years("simulation.seed=0", low);
-    take_years("simulation.seed=9007199254740992", high);
+    read_years("simulation.seed=0", low);
+    read_years("simulation.seed=9007199254740992", high);
     for (size_t i = 0; i < YEARS; i++)
         for (size_t k = 0; k < YEARS; k++)
             EXPECT(low[i], !=, high[k]);
@@ -524,7 +525,7 @@ TEST(no_seed_has_the_rocks_of_another_one_in_another_year)
 
 /* ---- defaults and texts ---- */
 
-TEST(defaults_need_no_more_than_what_has_none)
+TEST(defaults_fill_all_optional_values)
 {
     struct ceduo_scene_file r;
     assert_int_equal(ceduo_scene_read_text("mill.yaml", scene, &r), CEDUO_OK);

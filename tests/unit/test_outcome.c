@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is said of an option over the years ahead and today. Years, shares and ranges are made by hand, so that each answer follows
- * from the rule: yes if no year is above the limit, no if one is in every plausible case. */
+/* The answer for an option over the coming years and today. Years, shares and ranges are made by hand, so that each answer
+ * follows from the rule: yes if no year is above the limit, no if one is above it in every plausible case. */
 #include <math.h>
 #include <string.h>
 
@@ -41,7 +41,7 @@ static void set_share(struct ceduo_arrivals *a, double share, double lo, double 
     a->hazard.per_year = NAN;
 }
 
-/* Today 31 of 1000 exceed the limit, and without forest 300. */
+/* Today 31 in 1000 exceed the limit, without forest 300. */
 static int open_site(void **state)
 {
     (void)state;
@@ -73,7 +73,7 @@ static int open_site(void **state)
     return 0;
 }
 
-/* Years above the limit: by their shares, and by the ends of their intervals. */
+/* Set the years above the limit: by their shares, and by the ends of their intervals. */
 static void set_failing(size_t failing, size_t lo, size_t hi)
 {
     years.unprotected_energy = failing;
@@ -91,14 +91,14 @@ static struct ceduo_outcome judge(bool uncertainty)
     return ceduo_outcome_compute(&result, &verdict, uncertainty ? &answer : NULL, 0, 0);
 }
 
-TEST_WITH(the_years_decide_not_today, open_site, NULL)
+TEST_WITH(the_years_decide_before_today, open_site, NULL)
 {
     set_failing(17, 15, 19);
     struct ceduo_outcome o = judge(false);
     EXPECT_IS(o, (answer, CEDUO_NO), (today, CEDUO_YES));
     set_failing(0, 0, 0);
     assert_int_equal(judge(false).answer, CEDUO_YES);
-    set_failing(0, 0, 1); /* one year may be above by its rocks */
+    set_failing(0, 0, 1); /* sampling error allows one year */
     assert_int_equal(judge(false).answer, CEDUO_NOT_DECIDED);
     set_failing(1, 0, 2);
     assert_int_equal(judge(false).answer, CEDUO_NOT_DECIDED);
@@ -110,7 +110,7 @@ TEST_WITH(the_years_decide_not_today, open_site, NULL)
     EXPECT_IS(o, (answer, CEDUO_YES), (over_years, false));
 }
 
-TEST_WITH(uncertain_inputs_leave_it_open, open_site, NULL)
+TEST_WITH(uncertain_inputs_leave_the_answer_open, open_site, NULL)
 {
     const struct {
         size_t failing, lo, hi;
@@ -129,7 +129,7 @@ TEST_WITH(uncertain_inputs_leave_it_open, open_site, NULL)
     }
 }
 
-/* Without years the range of today decides. */
+/* Without years today's range decides. */
 TEST_WITH(today_may_depend, open_site, NULL)
 {
     set_failing(17, 15, 19);
@@ -141,7 +141,7 @@ TEST_WITH(today_may_depend, open_site, NULL)
     assert_int_equal(judge(true).today, CEDUO_YES);
 }
 
-/* Two blocks a year: one in 100 years with too much energy is a share of .005. */
+/* Two blocks a year: one in 100 years above the accepted energy is a share of .005. */
 TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
 {
     scene.blocks = &blocks;
@@ -153,7 +153,7 @@ TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
     wooded.limit = bare.limit = .005;
     set_failing(25, 25, 25);
     const struct {
-        double lo, hi, p5, p95; /* events a year; shares, of which two are released a year */
+        double lo, hi, p5, p95; /* events per year; shares at two released per year */
         enum ceduo_judgement answer;
     } rows[] = {{.005, .01, NAN, NAN, CEDUO_YES},       {.005, .0101, NAN, NAN, CEDUO_NOT_DECIDED},
                 {.0101, .02, NAN, NAN, CEDUO_NO},       {.005, .009, .002, .0051, CEDUO_DEPENDS},
@@ -166,14 +166,14 @@ TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
     }
 }
 
-static void say_answer(struct text *text, size_t at, size_t width)
+static void print_answer(struct text *text, size_t at, size_t width)
 {
     const struct ceduo_report report = {.result = &result, .verdict = &verdict};
     const struct ceduo_subject subject = ceduo_subject_find(&report, 0, at);
     ceduo_words_answer(text, &subject, width);
 }
 
-/* No forest holds so much, so it supports no yes; a no stands. */
+/* An impossible basal area cannot support a yes; a no stands. */
 TEST_WITH(an_impossible_stand_supports_no_yes, open_site, NULL)
 {
     LOCAL_TEXT(text);
@@ -181,7 +181,7 @@ TEST_WITH(an_impossible_stand_supports_no_yes, open_site, NULL)
     set_failing(0, 0, 0);
     struct ceduo_outcome o = judge(false);
     EXPECT_IS(o, (answer, CEDUO_CANNOT_JUDGE), (impossible, true));
-    say_answer(&text, 0, 200);
+    print_answer(&text, 0, 200);
     assert_non_null(strstr(text.bytes, "more stems than a forest can hold"));
     set_failing(17, 15, 19);
     assert_int_equal(judge(false).answer, CEDUO_NO);
@@ -189,14 +189,14 @@ TEST_WITH(an_impossible_stand_supports_no_yes, open_site, NULL)
     set_failing(0, 0, 0);
     assert_int_equal(judge(false).answer, CEDUO_YES);
     stand.warnings = CEDUO_WARN_BASAL_AREA;
-    belt.from = control.x; /* behind the control */
+    belt.from = control.x; /* after the control */
     assert_int_equal(judge(false).answer, CEDUO_YES);
 }
 
 static void expect_words(size_t at, size_t width, const char *wanted)
 {
     LOCAL_TEXT(text);
-    say_answer(&text, at, width);
+    print_answer(&text, at, width);
     assert_string_equal(text.bytes, wanted);
 }
 
@@ -214,7 +214,7 @@ TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
     set_share(&wooded, .031, .022, .043);
     expect_words(0, 30, "✘ NO: in 17 of 25 years");
     expect_words(0, 10, "✘ NO");
-    choice.cut = 3; /* due, and it changes the answer */
+    choice.cut = 3; /* overdue, and it changes the answer */
     expect_words(0, 120, "✔ YES today; ✘ NO after the cut: 489 of 1000 in year 1, more than 50 of 1000 in 17 of 25 years");
     expect_words(0, 84, "✔ YES today; ✘ NO after the cut: 489 of 1000 in year 1, above 50 in 17 of 25 years");
     expect_words(0, 60, "✔ YES today; ✘ NO after the cut: 489 of 1000 in year 1");

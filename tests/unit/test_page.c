@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pages as a terminal shows them, and the tables of figures behind JSON and CSV. */
+/* Pages as a terminal shows them, and the tables of figures of JSON and CSV. */
 #include "expect.h"
 #include "local.h"
 
@@ -75,9 +75,9 @@ static struct ceduo_page table(void)
     return page;
 }
 
-/* A cell that is too long is cut, or the row goes on below it, and what is wider than the page is wrapped; a number has as
- * many digits as have room; a wide sign takes two columns. */
-TEST(cells_stand_below_one_another)
+/* A cell that is too long is cut or continues in the next row; text wider than the page is wrapped. A number has the digits
+ * that fit; a wide character takes two columns. */
+TEST(cells_are_aligned_in_columns)
 {
     struct ceduo_page page = table();
     expect_page(&page, false,
@@ -101,7 +101,7 @@ TEST(the_least_numbers_are_not_inf)
     assert_null(strstr(text, "inf"));
 }
 
-TEST(signs_are_plain_for_a_plain_terminal)
+TEST(a_plain_terminal_gets_plain_characters)
 {
     struct ceduo_page page = table();
     LOCAL_BYTES char *text = printed(&page, true);
@@ -110,9 +110,9 @@ TEST(signs_are_plain_for_a_plain_terminal)
     assert_non_null(strstr(text, "+-"));
 }
 
-/* ---- drawn ---- */
+/* ---- drawing ---- */
 
-/* Draws a page into an area of cells at (2, 1), and compares what is seen. */
+/* Draw a page into an area of cells at (2, 1), and compare the screen. */
 static void expect_drawn(struct ceduo_page *page, struct ceduo_area area, enum ceduo_charset charset, int first, int lines,
                          const char *wanted)
 {
@@ -122,7 +122,7 @@ static void expect_drawn(struct ceduo_page *page, struct ceduo_area area, enum c
     assert_string_equal(text, wanted);
 }
 
-/* From a line on, within its area, headings and warnings in roles of their own; margins are smaller than on paper. */
+/* From a line on, within the area, with roles for headings and warnings; margins are smaller than on paper. */
 TEST(a_pane_shows_lines_in_roles)
 {
     LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 12};
@@ -159,8 +159,8 @@ static struct ceduo_page bars(size_t width)
     return page;
 }
 
-/* Columns are as wide as their cells; a name that is too long keeps its end, which tells it from the others; bars take what is
- * left, and without room the columns of the highest rank go, whole. */
+/* Columns are as wide as their cells. A name that is too long keeps its distinctive end; bars take the remaining width. In a
+ * narrow pane whole columns of the highest rank are dropped. */
 TEST(columns_find_their_widths)
 {
     LOCAL_BY(ceduo_page_free) struct ceduo_page wide = bars(40), narrow = bars(24), least = bars(14);
@@ -176,14 +176,14 @@ TEST(columns_find_their_widths)
                  "            kJ\ncopp~cut 7.000\ncopp~ars 123.4\n\n");
 }
 
-/* What has no room at all is cut with a sign, and nothing is drawn beside the area. */
+/* Text that does not fit is cut with a mark, and nothing is drawn outside the area. */
 TEST(a_pane_too_narrow_is_cut)
 {
     LOCAL_BY(ceduo_page_free) struct ceduo_page page = bars(8);
     expect_drawn(&page, (struct ceduo_area){0, 0, 8, 3}, CEDUO_CHARSET_ASCII, 0, 3, "\ncoppi~ ~\ncoppi~ ~\n\n");
 }
 
-/* ---- the tables of figures ---- */
+/* ---- tables of figures ---- */
 
 static const struct ceduo_figure *with_key(const struct ceduo_figure *f, const char *key)
 {
@@ -193,7 +193,7 @@ static const struct ceduo_figure *with_key(const struct ceduo_figure *f, const c
     return row;
 }
 
-/* Each row has a key of its own, says what it means, and is either a value, an object or sentences. */
+/* Each row has a unique key and a description, and is a value, an object or sentences. */
 static void expect_rows(const struct ceduo_figure *table, const struct ceduo_figure *f)
 {
     for (; !ceduo_figure_is_end(f); f++) {
@@ -208,7 +208,7 @@ static void expect_rows(const struct ceduo_figure *table, const struct ceduo_fig
     }
 }
 
-TEST(every_figure_says_what_it_is)
+TEST(every_figure_has_a_description)
 {
     expect_rows(ceduo_result_figures, ceduo_result_figures);
     expect_rows(ceduo_find_figures, ceduo_find_figures);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Questions that ask for little, that nobody waits for any more, and what is read from their answers. */
+/* Requests for little, cancelled requests, and figures derived from their results. */
 #include "expect.h"
 #include "local.h"
 
@@ -9,7 +9,7 @@
 
 static struct paper_site site;
 
-static struct ceduo_request question_of(uint64_t rocks)
+static struct ceduo_request make_request(uint64_t rocks)
 {
     paper_site_init(&site);
     struct ceduo_request q = ceduo_request_default(&site.scene);
@@ -17,10 +17,10 @@ static struct ceduo_request question_of(uint64_t rocks)
     return q;
 }
 
-/* Stands and index are assessed without a rock, be its precision asked for or not. */
-TEST(no_rocks_are_not_precise)
+/* Stands and index need no rocks, with or without a requested precision. */
+TEST(stands_need_no_rocks)
 {
-    struct ceduo_request q = question_of(0);
+    struct ceduo_request q = make_request(0);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     q.tolerance = .1;
     q.years = true;
@@ -35,7 +35,7 @@ TEST(no_rocks_are_not_precise)
     EXPECT(answer.result->options[0].stands[0].adc_m, >, 0);
 }
 
-/* Without a control nothing is known of what arrives, today or over years; what the stands yield is. */
+/* Without a control the arrivals are unknown, today and over years; the yields are known. */
 static void expect_yields_alone(const struct ceduo_results *answer)
 {
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v;
@@ -46,11 +46,11 @@ static void expect_yields_alone(const struct ceduo_results *answer)
     assert_true(isnan(ceduo_years_difference(answer->years[0], answer->years[0]).mean));
 }
 
-/* Where rocks are counted nowhere they fly all the same, and there is nothing to say of other sizes. */
+/* Without a control rocks are simulated all the same, and other sizes have no results. */
 TEST(nothing_is_counted_without_a_control)
 {
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
-        struct ceduo_request q = question_of(20);
+        struct ceduo_request q = make_request(20);
         LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
         site.scene.controls_count = 0;
@@ -66,10 +66,10 @@ TEST(nothing_is_counted_without_a_control)
     }
 }
 
-/* All runs are there from the question before: only the other sizes fly, and nobody waits for them. */
+/* All runs exist from the previous request: only the other sizes are simulated, and they are cancelled. */
 TEST(other_sizes_are_cancelled)
 {
-    struct ceduo_request q = question_of(20);
+    struct ceduo_request q = make_request(20);
     LOCAL(ceduo_pool, pool) = NULL;
     struct ceduo_results answer;
     atomic_bool cancel = true;
@@ -88,10 +88,10 @@ TEST(other_sizes_are_cancelled)
     ceduo_results_release(&answer);
 }
 
-/* Of two options one is asked for, and nothing is known of what the other's rocks cost. */
+/* One of two options is requested; the cost of the other's rocks is unknown. */
 TEST(other_sizes_of_one_option)
 {
-    struct ceduo_request q = question_of(50);
+    struct ceduo_request q = make_request(50);
     struct ceduo_option options[2] = {site.option, site.option};
     struct ceduo_results answers[2];
     site.scene.options = options;
@@ -107,12 +107,12 @@ TEST(other_sizes_of_one_option)
     ceduo_results_release(&answers[1]);
 }
 
-/* At the worst of two controls; not known where it is not of one of them, whichever comes first. */
-TEST(a_goal_is_reached_at_the_worst_control)
+/* At the worse of two controls; NaN if either is NaN, in any order. */
+TEST(the_worst_control_decides_a_goal)
 {
     const double accepted[][2] = {{50e3, 50e3}, {NAN, 50e3}, {50e3, NAN}};
     for (size_t i = 0; i < LENGTH(accepted); i++) {
-        struct ceduo_request q = question_of(200);
+        struct ceduo_request q = make_request(200);
         LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
         struct ceduo_control controls[2] = {site.control, site.control};
         controls[0].x = controls[0].x_given = 20;
@@ -131,10 +131,10 @@ TEST(a_goal_is_reached_at_the_worst_control)
     }
 }
 
-/* Of two options that are the same the difference is 0, without an error. */
+/* Between two equal options the difference is 0 without error. */
 TEST(options_that_are_the_same)
 {
-    struct ceduo_request q = question_of(200);
+    struct ceduo_request q = make_request(200);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     struct ceduo_option options[2] = {site.option, site.option};
     site.control.accepted = 1e12;
@@ -147,10 +147,10 @@ TEST(options_that_are_the_same)
     EXPECT(difference.hi, ==, 0);
 }
 
-/* Two things at one place: the same rocks come, and each has its own limit. */
+/* Two objects at one place: the same rocks arrive, and each has its own limit. */
 TEST(controls_at_one_place)
 {
-    struct ceduo_request q = question_of(200);
+    struct ceduo_request q = make_request(200);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     struct ceduo_control controls[2] = {site.control, site.control};
     controls[1].accepted = 0;
@@ -164,22 +164,22 @@ TEST(controls_at_one_place)
     EXPECT(b->exceeded, ==, b->reached);
 }
 
-/* Years in which no rock was simulated have no share that could be less. */
-TEST(years_without_rocks_differ_by_nothing_known)
+/* Years without rocks have no share, so no difference. */
+TEST(years_without_rocks_have_no_difference)
 {
-    struct ceduo_request q = question_of(50);
+    struct ceduo_request q = make_request(50);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
-    LOCAL(ceduo_years, none);
+    LOCAL(ceduo_years, empty);
     q.years = true;
     q.window = (struct ceduo_window){.last = 1, .step = 1};
     assert_int_equal(ceduo_simulate_request(&q, NULL, &answer), CEDUO_OK);
-    assert_int_equal(ceduo_years_create(&site.scene, &site.option, q.window, &none), CEDUO_OK);
+    assert_int_equal(ceduo_years_create(&site.scene, &site.option, q.window, &empty), CEDUO_OK);
     EXPECT(ceduo_years_difference(answer.years[0], answer.years[0]).mean, ==, 0);
-    assert_true(isnan(ceduo_years_difference(answer.years[0], none).mean));
-    assert_true(isnan(ceduo_years_difference(none, answer.years[0]).mean));
+    assert_true(isnan(ceduo_years_difference(answer.years[0], empty).mean));
+    assert_true(isnan(ceduo_years_difference(empty, answer.years[0]).mean));
 }
 
-/* Three belts that are cut together, every ten years from the second on: by year, then along the slope. */
+/* Three belts cut together, every ten years from year 2: by year, then along the slope. */
 TEST(fellings_are_in_order)
 {
     struct ceduo_belt belts[3];
@@ -200,11 +200,11 @@ TEST(fellings_are_in_order)
     }
 }
 
-/* A coppice that was just cut has no stem today and a volume to cut later: half of the forest beside one that is bare for good, which
- * does not count. */
-TEST(a_stand_just_cut_yields)
+/* A coppice just after its cut has no stems today and a volume to cut later: half of the forest next to a permanently bare
+ * half, which does not count. */
+TEST(a_freshly_cut_stand_has_a_yield)
 {
-    static struct ceduo_stems none[1];
+    static struct ceduo_stems empty[1];
     struct ceduo_belt belts[2];
     struct ceduo_option option = {.belts = belts, .belts_count = 1};
     LOCAL_BY(ceduo_yield_release) struct ceduo_yield alone, beside;
@@ -213,7 +213,7 @@ TEST(a_stand_just_cut_yields)
     belts[0].stand = (struct ceduo_stand){.species = site.belts[0].stand.species,
                                           .stools_per_ha = 2000,
                                           .spacing = 0.3,
-                                          .shoots = none,
+                                          .shoots = empty,
                                           .fracture_ratio = NAN,
                                           .growth = paper_growth,
                                           .cutting = {.rotation = 10}};
@@ -228,8 +228,8 @@ TEST(a_stand_just_cut_yields)
     EXPECT(beside.cut_per_year, ==, alone.cut_per_year);
 }
 
-/* The volume of belts is their mean by their lengths: 30 m and 90 m, of which the one has twice the other's. */
-TEST(volumes_of_belts_are_weighed_by_their_lengths)
+/* The volume of belts is their mean weighted by length: 30 m and 90 m, one with twice the other's volume. */
+TEST(volumes_of_belts_are_weighted_by_length)
 {
     LOCAL_BY(ceduo_yield_release) struct ceduo_yield yield;
     paper_site_init(&site);

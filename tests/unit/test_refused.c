@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes and rocks that are refused, grounds and belts at their edges. */
+/* Scenes and rocks that are refused, grounds and belts at their limits. */
 #include "expect.h"
 #include "local.h"
 
@@ -10,15 +10,15 @@
 #include "core/wood/wood.h"
 #include "physics/paper_site.h"
 
-/* ---- scenes that are refused ---- */
+/* ---- refused scenes ---- */
 
 static struct paper_site site;
 
-/* A number of a good scene is another then: refused for it, or not. */
+/* Change one number of a valid scene: refused with this error, or valid. */
 struct change {
     double *number, value;
     enum ceduo_status wanted;
-    size_t where; /* of the control; 9: untouched */
+    size_t where; /* index of the control; 9: untouched */
 };
 
 static void expect_refused(const struct change *rows, size_t n)
@@ -67,7 +67,7 @@ TEST(scenes_are_refused)
                                   {&s->rt.mean, 1, CEDUO_OK, 0},
                                   {&s->roughness_rad, acos(0), CEDUO_BAD_SLOPE, 0}, /* a right angle */
                                   {&s->roughness_rad, 1.57, CEDUO_OK, 0},
-                                  {&s->roughness_m, .1, CEDUO_BAD_SLOPE, 0}, /* said twice */
+                                  {&s->roughness_m, .1, CEDUO_BAD_SLOPE, 0}, /* given twice */
                                   {&shoots->dbh, -.06, CEDUO_BAD_STAND, 0},
                                   {&shoots->dbh, NAN, CEDUO_BAD_STAND, 0},
                                   {&shoots->per_ha, -1, CEDUO_BAD_STAND, 0},
@@ -117,7 +117,7 @@ TEST(scenes_are_refused)
     scene->options = NULL;
     scene->options_count = 0;
     scene->controls = NULL;
-    scene->controls_count = 0; /* a bare slope may be all that is asked about */
+    scene->controls_count = 0; /* a slope without controls is valid */
     EXPECT(ceduo_scene_check(scene, NULL), ==, CEDUO_OK);
     scene->slope.vertices = 1;
     EXPECT(ceduo_scene_check(scene, NULL), ==, CEDUO_BAD_SLOPE);
@@ -138,7 +138,7 @@ TEST(blocks_are_refused)
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_ROCK);
 }
 
-/* Of other sizes of the rock none is flown, whatever the contact model. */
+/* No other size of the rock is simulated, for any contact model. */
 static void expect_no_blocks(void)
 {
     struct ceduo_size_result blocks[CEDUO_SIZES];
@@ -150,8 +150,8 @@ static void expect_no_blocks(void)
     }
 }
 
-/* Of a rock that is none nothing is known, and none is flown. */
-TEST(no_rock_no_figures)
+/* An invalid rock has no figures and is not simulated. */
+TEST(an_invalid_rock_has_no_figures)
 {
     paper_site_init(&site);
     struct ceduo_trajectory way;
@@ -167,7 +167,7 @@ TEST(no_rock_no_figures)
     assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
     assert_null(ceduo_tracer_create(&site.scene, NULL));
     expect_no_blocks();
-    /* good itself, but too heavy when it is as large as the others */
+    /* valid itself, but too heavy at the size of the others */
     site.scene.rock = ceduo_scene_default().rock;
     site.scene.rock.diameter.mean = 1e-90;
     site.scene.rock.mass.mean = 1e200;
@@ -183,7 +183,7 @@ static void expect_rock(const struct ceduo_rock_def *def, enum ceduo_status want
 
 TEST(rocks_are_refused)
 {
-    /* of no size; and too small or too large: mass, moment or radius would be 0 or infinite */
+    /* no size; and too small or too large: mass, moment or radius would be 0 or infinite */
     const double no_size[] = {0, -1, INFINITY, -INFINITY, 1e-120, 1e-100, 1e100, 1e103};
     struct ceduo_rock_def def = ceduo_scene_default().rock;
     expect_rock(&def, CEDUO_BAD_ROCK);
@@ -194,7 +194,7 @@ TEST(rocks_are_refused)
         expect_rock(&def, CEDUO_BAD_ROCK);
     }
     def.mass.mean = def.diameter.mean = 1;
-    def.density.mean = INFINITY; /* even where nothing needs it */
+    def.density.mean = INFINITY; /* even if nothing uses it */
     expect_rock(&def, CEDUO_BAD_ROCK);
     def.density.mean = 2600;
     expect_rock(&def, CEDUO_OK);
@@ -228,7 +228,7 @@ TEST(rocks_are_refused)
 
 /* ---- grounds ---- */
 
-/* Two segments on one line: how many are made of them. */
+/* Return how many segments the core makes of two collinear ones. */
 static size_t segments_made(void)
 {
     LOCAL_BY(ceduo_ground_release) struct ground g;
@@ -237,7 +237,7 @@ static size_t segments_made(void)
     return n;
 }
 
-TEST(alike_neighbours_are_one)
+TEST(collinear_segments_are_merged)
 {
     paper_site_init(&site);
     struct ceduo_slope *slope = &site.scene.slope;
@@ -257,7 +257,7 @@ TEST(alike_neighbours_are_one)
         assert_int_equal(segments_made(), 2);
         *numbers[i] = was;
     }
-    b->rn.kind = CEDUO_UNIFORM; /* of no spread */
+    b->rn.kind = CEDUO_UNIFORM; /* without spread */
     assert_int_equal(segments_made(), 1);
     a->rn.spread = b->rn.spread = .01;
     assert_int_equal(segments_made(), 2);
@@ -273,8 +273,8 @@ TEST(alike_neighbours_are_one)
     assert_int_equal(segments_made(), 2);
 }
 
-/* A short segment that is turned from the line further than one may be is no part of it, be its end on it or not. */
-TEST(turned_segments_are_their_own)
+/* A short segment at more than the tolerated angle to the line stays separate, even if its end lies on the line. */
+TEST(segments_at_an_angle_stay_separate)
 {
     paper_site_init(&site);
     struct ceduo_slope *slope = &site.scene.slope;
@@ -292,8 +292,8 @@ TEST(turned_segments_are_their_own)
     assert_int_equal(segments_made(), 2);
 }
 
-/* Stools so wide and so many that a table for all that a rock can be among would not fit into memory: there is a most. */
-TEST(tables_of_stools_have_an_end)
+/* Stools so wide and many that a table of all stools around a rock would not fit into memory: the table has a limit. */
+TEST(tables_of_stools_have_a_limit)
 {
     paper_site_init(&site);
     const struct ceduo_simulation *simulation = &site.scene.simulation;
@@ -311,15 +311,15 @@ TEST(tables_of_stools_have_an_end)
     ceduo_wood_release(&wood);
 }
 
-/* ---- the index ---- */
+/* ---- index ---- */
 
-TEST(belts_beside_the_way)
+TEST(belts_outside_the_trajectory)
 {
     paper_site_init(&site);
     struct ceduo_belt *belts = site.belts;
     struct ceduo_control control = site.control;
     struct ceduo_index both = ceduo_assess_index(&site.scene, &site.option, &control, 1e5);
-    control.x = belts[0].to; /* the second belt lies behind the control */
+    control.x = belts[0].to; /* the second belt is after the control */
     struct ceduo_index first = ceduo_assess_index(&site.scene, &site.option, &control, 1e5);
     struct ceduo_stand_result of_first = ceduo_assess_stand(&site.scene, &belts[0]),
                               of_second = ceduo_assess_stand(&site.scene, &belts[1]);
@@ -328,7 +328,7 @@ TEST(belts_beside_the_way)
     EXPECT(both.length, >, first.length);
     EXPECT_NEAR(first.contacts, before / of_first.adc_m, 1e-9);
     EXPECT(fabs(both.contacts - first.contacts - of_second.contacts), <, 1e-9);
-    site.scene.release.x.mean = belts[0].to; /* the first lies behind the release */
+    site.scene.release.x.mean = belts[0].to; /* the first belt is above the release */
     control.x = site.control.x;
     struct ceduo_index second = ceduo_assess_index(&site.scene, &site.option, &control, NAN);
     EXPECT_NEAR(second.contacts, of_second.contacts, 1e-9);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs and pools at their limits: parts, rocks that cannot be drawn or never end. */
+/* Runs and pools at their limits: parts, and rocks that cannot be drawn or never end. */
 #include "expect.h"
 #include "local.h"
 
@@ -12,7 +12,7 @@
 
 static struct paper_site site;
 
-/* Rocks of which some are drawn too light to compute with: these, and only these, are unfinished, at each control. */
+/* Some rocks are drawn too light to compute: exactly these are unfinished, at each control. */
 TEST(rocks_that_cannot_be_drawn)
 {
     paper_site_init(&site);
@@ -25,7 +25,7 @@ TEST(rocks_that_cannot_be_drawn)
     EXPECT(found.bad, <, 250);
 }
 
-/* One number of the release has a spread: a run flies its rocks as they are followed one by one. */
+/* One number of the release has a spread: a run gives the same rocks as one by one. */
 TEST(each_spread_is_drawn)
 {
     for (int i = 0; i < 5; i++) {
@@ -52,8 +52,8 @@ static void count_stem(void *context, const struct ceduo_stem_encounter *stem)
     *(unsigned *)context += 1000000;
 }
 
-/* Whoever looks on, at pieces, at stems or at nothing, changes nothing. */
-TEST(looking_on_changes_nothing)
+/* Callbacks for segments, stems or nothing change no result. */
+TEST(callbacks_change_nothing)
 {
     unsigned seen;
     const struct ceduo_trajectory_callbacks watches[] = {{NULL, count_piece, count_stem, &seen},
@@ -61,7 +61,7 @@ TEST(looking_on_changes_nothing)
                                                          {NULL, NULL, count_stem, &seen},
                                                          {NULL, NULL, NULL, &seen}};
     paper_site_init(&site);
-    site.plots[0].shoots.height = site.plots[1].trees.height = .3; /* some are flown over */
+    site.plots[0].shoots.height = site.plots[1].trees.height = .3; /* the rock flies over some */
     for (uint64_t rock = 0; rock < 60; rock++) {
         const struct ceduo_option *option = rock % 2 == 0 ? &site.option : NULL;
         struct ceduo_trajectory alone, way;
@@ -82,7 +82,7 @@ TEST(looking_on_changes_nothing)
     }
 }
 
-/* A rock that bounces in its place for ever is given up, unfinished before the control; the cells do not see it. */
+/* A rock that bounces in place for ever is aborted, unfinished before the control; it is not in the cells. */
 TEST(a_rock_without_end)
 {
     static const double places[] = {50};
@@ -96,7 +96,7 @@ TEST(a_rock_without_end)
     site.scene.release =
         (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    LOCAL(ceduo_run, run) = run_of(&def, 1);
+    LOCAL(ceduo_run, run) = make_run(&def, 1);
     struct ceduo_arrivals a;
     struct ceduo_envelope e;
     assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
@@ -109,7 +109,7 @@ TEST(a_rock_without_end)
 }
 
 struct alike {
-    int read[3]; /* times that each was simulated */
+    int read[3]; /* times that each is simulated */
     size_t as[3];
 };
 
@@ -134,8 +134,8 @@ static void same_variant(void *context, size_t i, size_t first)
     ((struct alike *)context)->as[i] = first;
 }
 
-/* Of bare ground, wood and bare ground the third is as the first. */
-TEST(what_is_alike_is_simulated_once)
+/* Without forest, with forest, without forest: the third equals the first. */
+TEST(equal_forests_are_simulated_once)
 {
     struct alike alike = {0};
     paper_site_init(&site);
@@ -147,7 +147,7 @@ TEST(what_is_alike_is_simulated_once)
     assert_int_equal(alike.as[1], 0);
 }
 
-/* Blocks of all sizes: the difference of two runs is one of the rocks that both have, whichever is longer. */
+/* Blocks of all sizes: the difference of two runs uses the rocks of both, whichever is longer. */
 TEST(differences_of_blocks)
 {
     static double volumes[] = {0.05, 1};
@@ -158,9 +158,9 @@ TEST(differences_of_blocks)
     struct ceduo_run_def bare = ceduo_run_def_default(&site.scene), wood = bare;
     wood.option = &site.option;
     double none[1];
-    struct ceduo_run *few = run_of(&wood, 50), *many = run_of(&wood, 120), *least = run_of(&bare, 50),
-                     *most = run_of(&bare, 120);
-    struct ceduo_run *empty = run_of(&bare, 0);
+    struct ceduo_run *few = make_run(&wood, 50), *many = make_run(&wood, 120), *least = make_run(&bare, 50),
+                     *most = make_run(&bare, 120);
+    struct ceduo_run *empty = make_run(&bare, 0);
     struct ceduo_difference wanted = ceduo_run_difference(few, least, 0);
     EXPECT(wanted.energy_per_released.mean, <, 0);
     struct ceduo_difference first = ceduo_run_difference(few, most, 0), second = ceduo_run_difference(many, least, 0);
@@ -169,13 +169,13 @@ TEST(differences_of_blocks)
     assert_true(isnan(ceduo_run_difference(empty, most, 0).reach.mean));
     assert_true(isnan(ceduo_run_difference(few, empty, 0).reach.mean));
     EXPECT(ceduo_run_energies(empty, 0, none, 1), ==, 0);
-    assert_null(ceduo_run_samples(empty, 0, CEDUO_SAMPLE_STOP)); /* of nobody */
+    assert_null(ceduo_run_samples(empty, 0, CEDUO_SAMPLE_STOP)); /* no rocks */
     struct ceduo_run *runs[] = {few, many, least, most, empty};
     for (size_t i = 0; i < 5; i++)
         ceduo_run_free(runs[i]);
 }
 
-/* A hundred energies of blocks stand for all: in the order of the rocks, each at the middle of a hundredth of all weights. */
+/* A hundred energies represent all blocks: in the order of the rocks, each at the centre of a hundredth of all weights. */
 TEST(energies_of_blocks_are_even_quantiles)
 {
     enum { ROCKS = 900, MOST = 100 };
@@ -186,7 +186,7 @@ TEST(energies_of_blocks_are_even_quantiles)
     site.scene.blocks_count = 1;
     struct ceduo_run_def wood = ceduo_run_def_default(&site.scene);
     wood.option = &site.option;
-    LOCAL(ceduo_run, run) = run_of(&wood, ROCKS);
+    LOCAL(ceduo_run, run) = make_run(&wood, ROCKS);
     const double *all = ceduo_run_samples(run, 0, CEDUO_SAMPLE_ENERGY);
     EXPECT(ceduo_run_energies(run, 0, some, MOST), ==, MOST);
     const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
@@ -196,14 +196,14 @@ TEST(energies_of_blocks_are_even_quantiles)
         sum += isnan(all[r]) ? 0 : weights[r];
     for (size_t r = 0; r < ROCKS; r++) {
         to += isnan(all[r]) ? 0 : weights[r] / sum * MOST;
-        for (; n < (size_t)floor(to + .5) && n < MOST; n++) /* the middles of steps that its weight covers */
+        for (; n < (size_t)floor(to + .5) && n < MOST; n++) /* the centres of steps that its weight covers */
             EXPECT(some[n], ==, all[r]);
     }
     EXPECT(n, ==, MOST);
 }
 
-/* In brief a run says what it says at length: of one block or of all sizes, with and without an accepted energy. */
-TEST(a_run_in_brief)
+/* Group means equal the full statistics: for one block or all sizes, with and without an accepted energy. */
+TEST(group_means_equal_the_statistics)
 {
     static double volumes[] = {0.05, 1};
     struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
@@ -214,7 +214,7 @@ TEST(a_run_in_brief)
         site.scene.blocks = &blocks;
         site.scene.blocks_count = i / 2 == 1;
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        LOCAL(ceduo_run, run) = run_of(&def, 300);
+        LOCAL(ceduo_run, run) = make_run(&def, 300);
         struct ceduo_group_means brief;
         struct ceduo_arrivals a;
         ceduo_run_group_means(run, 0, 1, &brief);
@@ -228,13 +228,13 @@ TEST(a_run_in_brief)
     }
 }
 
-/* Years that were not flown yet say nothing of what arrives. */
+/* Years before simulation have no arrivals. */
 TEST(years_before_they_are_flown)
 {
     paper_site_init(&site);
     site.scene.simulation.rocks = 20;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    LOCAL(ceduo_run, run) = run_of(&def, 20);
+    LOCAL(ceduo_run, run) = make_run(&def, 20);
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare;
     LOCAL(ceduo_years, years);
     assert_int_equal(ceduo_simulated_read(run, 1, &bare), CEDUO_OK);
@@ -251,7 +251,7 @@ TEST(years_before_they_are_flown)
     EXPECT(s.unprotected_energy, ==, 0);
 }
 
-/* 300 rocks without speed, which friction holds where they are released. */
+/* Return a run of 300 rocks without speed, which friction holds at their release. */
 static struct ceduo_run *held_rocks(void)
 {
     paper_site_init(&site);
@@ -260,8 +260,8 @@ static struct ceduo_run *held_rocks(void)
     site.scene.release =
         (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    def.threads = 0; /* as one */
-    return run_of(&def, 300);
+    def.threads = 0; /* means 1 */
+    return make_run(&def, 300);
 }
 
 TEST(places_that_no_rock_reaches)
@@ -286,50 +286,50 @@ TEST(a_control_that_no_rock_reaches)
     EXPECT_NAN(energy.mean, energy.se);
 }
 
-TEST(a_run_is_no_longer_than_it_was_made_for)
+TEST(a_run_stops_at_its_capacity)
 {
     LOCAL(ceduo_run, run) = held_rocks();
     assert_int_equal(ceduo_run_extend(run, 1000), CEDUO_OK);
     assert_int_equal(ceduo_run_rocks(run), 300);
 }
 
-/* Of the rocks that arrive as many as there is room for; before any is simulated, none. */
-TEST(energies_as_far_as_they_are_kept)
+/* Energies of arrivals, up to the stored number; none before the simulation. */
+TEST(energies_of_the_stored_arrivals)
 {
     double energies[8];
     paper_site_init(&site);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.rocks_most = 300;
-    LOCAL(ceduo_run, run) = run_of(&def, 0);
+    LOCAL(ceduo_run, run) = make_run(&def, 0);
     assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
     assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
     assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 8);
 }
 
-/* A run in two steps takes its capacity twice over, up to what it was made for, and has the bits of one step. */
-TEST(room_is_taken_twice)
+/* A run in two steps allocates twice, up to its capacity, and has the bits of one step. */
+TEST(a_run_allocates_twice)
 {
     paper_site_init(&site);
     site.scene.simulation.rocks = 300;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     struct ceduo_arrivals steps, once;
-    LOCAL(ceduo_run, two) = run_of(&def, 200);
+    LOCAL(ceduo_run, two) = make_run(&def, 200);
     assert_int_equal(ceduo_run_extend(two, 300), CEDUO_OK);
     assert_int_equal(ceduo_run_arrivals(two, 0, &steps), CEDUO_OK);
-    LOCAL(ceduo_run, one) = run_of(&def, 300);
+    LOCAL(ceduo_run, one) = make_run(&def, 300);
     assert_int_equal(ceduo_run_arrivals(one, 0, &once), CEDUO_OK);
     EXPECT(steps.reached, >, 0);
     assert_memory_equal(&steps, &once, sizeof steps);
 }
 
-/* Without a control it is still counted how rocks end. */
+/* Without a control the ends of rocks are still counted. */
 TEST(ends_without_a_control)
 {
     paper_site_init(&site);
     site.scene.controls_count = 0;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     struct ceduo_ends ends;
-    LOCAL(ceduo_run, run) = run_of(&def, 300);
+    LOCAL(ceduo_run, run) = make_run(&def, 300);
     assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
     uint64_t all = 0;
     for (int e = 0; e < CEDUO_ENDS; e++)
@@ -357,8 +357,8 @@ TEST(a_slope_of_one_point_has_no_run)
     assert_null(pool);
 }
 
-/* Forests that the scene has no more: the runs asked for last stay, so many of them. */
-TEST(a_pool_forgets_what_is_old)
+/* Forests no longer in the scene: the last runs used stay, up to a limit. */
+TEST(a_pool_drops_old_runs)
 {
     paper_site_init(&site);
     site.scene.simulation.rocks = 10;
@@ -373,12 +373,12 @@ TEST(a_pool_forgets_what_is_old)
         site.belts[1].to = to - i;
         assert_int_equal(ceduo_pool_run(pool, &site.option, &run), CEDUO_OK);
     }
-    site.belts[1].to = to - 1; /* the first is asked for once more */
+    site.belts[1].to = to - 1; /* the first one is used again */
     assert_int_equal(ceduo_pool_run(pool, &site.option, &run), CEDUO_OK);
     assert_int_equal(ceduo_pool_work(pool).reused, 1);
     site.belts[1].to = to;
     ceduo_pool_set_scene(pool, &site.scene);
-    assert_int_equal(ceduo_pool_work(pool).runs, 2 + MORE); /* made; those that are forgotten count */
+    assert_int_equal(ceduo_pool_work(pool).runs, 2 + MORE); /* all runs made, including dropped ones */
     assert_non_null(ceduo_pool_find(pool, NULL));
     assert_non_null(ceduo_pool_find(pool, &site.option));
     for (int i = 1; i <= MORE; i++) {

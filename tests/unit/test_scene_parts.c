@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene says of blocks, of what is not known and of what was seen: which places it means, where it comes from, and how
- * problems are put together. */
+/* Blocks, uncertainty and observations in a scene: the places they refer to, their sources, and merged problems. */
 #include "local.h"
 #include "table.h"
 
@@ -11,7 +10,7 @@
 #include "io/scene_file.h"
 #include "scene/schema.h"
 
-/* `lines`, and what they do not say of a scene that is good. */
+/* Complete `lines` to a valid scene. */
 static struct text scene_with(const char *lines)
 {
     static const char *const plain[] = {
@@ -29,8 +28,8 @@ static struct text scene_with(const char *lines)
     return text;
 }
 
-/* Reads it from the folder, with its `sets`; fails where it does not tell what is wanted (NULL: nothing) alone. */
-static void read_scene(struct scene_file *file, const char *lines, const char *const *sets, size_t n, const char *told)
+/* Read a scene from the folder with its `sets`; fail unless it reports exactly the expected problem (NULL: none). */
+static void read_scene(struct scene_file *file, const char *lines, const char *const *sets, size_t n, const char *reported)
 {
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_BY(ceduo_text_free) struct text text = scene_with(lines);
@@ -38,8 +37,8 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
     put("scene.yaml", text.bytes);
     in_folder(path, "scene.yaml");
     bool good = ceduo_scene_load(file, path, sets, n, &problems);
-    if (good != !told || problems.wrong.count != !good || (told && !strstr(ceduo_problems_print(&problems), told)))
-        fail_msg("%s\n%s\nis not told '%s' alone but:\n%s", text.bytes, n ? sets[0] : "", told ? told : "nothing",
+    if (good != !reported || problems.wrong.count != !good || (reported && !strstr(ceduo_problems_print(&problems), reported)))
+        fail_msg("%s\n%s\nis not told '%s' alone but:\n%s", text.bytes, n ? sets[0] : "", reported ? reported : "nothing",
                  ceduo_problems_print(&problems));
 }
 
@@ -52,8 +51,8 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
 #define TREE   "dbh_m: 0.2, height_m: 9"
 #define GROUPS "groups: {stems: 5, radius_m: 2}"
 
-/* More rows than anybody reads. */
-TEST_WITH(rows_of_uncertainty_are_told, folder_set_up, folder_tear_down)
+/* More rows than the limit. */
+TEST_WITH(rows_of_uncertainty_are_reported, folder_set_up, folder_tear_down)
 {
     LOCAL_TEXT(many);
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -64,7 +63,7 @@ TEST_WITH(rows_of_uncertainty_are_told, folder_set_up, folder_tear_down)
     read_scene(&file, many.bytes, NULL, 0, "uncertainty: 1001 items; at most 1000 can be computed");
 }
 
-/* The input of one row of uncertainty has these places, with a comma between them. */
+/* Expect the input of one row of uncertainty to have these places, separated by commas. */
 static void expect_places(const char *lines, const char *places)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -84,23 +83,23 @@ TEST_WITH(rows_of_uncertainty_mean_places, folder_set_up, folder_tear_down)
     expect_places("uncertainty: [{path: 'controls[*].x_m', lo: 50, hi: 60}]\ncontrols: [{x_m: 90}, {x_m: 95}]",
                   "controls[0].x_m,controls[1].x_m");
     expect_places("uncertainty: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]", ""); /* there are no options */
-    /* an option without a forest is passed over, the others are not */
+    /* an option without a forest is skipped, the others are not */
     expect_places("uncertainty: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]\n"
                   "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}, {name: cut}]",
                   "options[1].forest[0].to_m");
-    /* one stand says it, the other that nothing is uncertain */
+    /* one stand has uncertainty, the other none */
     expect_places("forest: [{" BELT ", uncertainty: none}}, {from_m: 80, to_m: 90, stand: {trees: [{per_ha: 10, " TREE "}], "
                   "uncertainty: [{path: 'trees[0].per_ha', lo: 1, hi: 90}]}}]",
                   "forest[1].stand.trees[0].per_ha");
     expect_places(CLIFF_AND_TALUS "\n" GROUND_ROW, "slope.segments[1].rn");
 }
 
-/* A place has one path: by its number, though a row gives its name. */
+/* A place has one path: with its number, even if a row gives its name. */
 TEST_WITH(places_by_name, folder_set_up, folder_tear_down)
 {
     static const char place[] = "options[1].forest[0].stand.trees[0].per_ha";
     static const char *const more[] = {"uncertainty: [{path: 'trees[0].per_ha', lo: 40, hi: 120}]", "source: {kind: assumed}"};
-    for (size_t i = 0; i < LENGTH(more); i++) { /* which the row of the scene goes before */
+    for (size_t i = 0; i < LENGTH(more); i++) { /* the scene's row has precedence */
         struct text lines = {0};
         struct scene_file file;
         struct scene_inputs inputs;
@@ -126,8 +125,8 @@ TEST_WITH(places_by_name, folder_set_up, folder_tear_down)
     expect_places("uncertainty: [{path: 'forest[wood].to_m', lo: 50, hi: 60}]\nforest: [{" BELT "}}]", "");
 }
 
-/* More places than there are rows in any list. */
-TEST_WITH(all_places_are_meant, folder_set_up, folder_tear_down)
+/* More places than the rows of any list. */
+TEST_WITH(all_places_count, folder_set_up, folder_tear_down)
 {
     LOCAL_TEXT(lines);
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -145,7 +144,7 @@ TEST_WITH(all_places_are_meant, folder_set_up, folder_tear_down)
     assert_string_equal(file.inputs[0].places[1599], "options[3].forest[399].stand.energy.u_J_m3");
 }
 
-/* Ranges, and what says where they come from, are no values that are computed with. */
+/* Ranges and their sources are not inputs of the simulation. */
 TEST_WITH(sources_of_ranges_are_no_notes, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -159,14 +158,14 @@ TEST_WITH(sources_of_ranges_are_no_notes, folder_set_up, folder_tear_down)
         assert_string_not_equal(n->text, "mine");
 }
 
-/* The number of an entry; what is not there, is none or beyond what a number holds is NaN. */
+/* The number of an entry; NaN for a missing entry, for one that is not a number, and beyond the range of numbers. */
 TEST_WITH(entries_have_numbers, folder_set_up, folder_tear_down)
 {
     struct scene_file file;
-    const char *const none[] = {"1e999", "x"};
-    for (size_t i = 0; i < LENGTH(none); i++) {
+    const char *const missing[] = {"1e999", "x"};
+    for (size_t i = 0; i < LENGTH(missing); i++) {
         char title[32];
-        snprintf(title, sizeof title, "title: %s", none[i]);
+        snprintf(title, sizeof title, "title: %s", missing[i]);
         read_scene(&file, title, NULL, 0, NULL);
         const struct node *rock = ceduo_node_get(file.root, "rock");
         EXPECT(ceduo_node_number(rock, "diameter_m"), ==, 0.5);
@@ -179,7 +178,7 @@ TEST_WITH(entries_have_numbers, folder_set_up, folder_tear_down)
 
 /* ---- draws ---- */
 
-/* Where the slope's file says no ground, talus and segments are those of all stretches; a column may set many. */
+/* If the slope's file gives no ground, talus and segments mean those of all stretches; one column may set many. */
 TEST_WITH(draws_of_an_assumed_ground, folder_set_up, folder_tear_down)
 {
     static const char lines[] = "slope: {csv: profile.csv, tolerance_m: 0}\nuncertainty: {draws: draws.csv}";
@@ -197,14 +196,14 @@ TEST_WITH(draws_of_an_assumed_ground, folder_set_up, folder_tear_down)
         EXPECT(file.inputs[0].draws[i][1], ==, values[i]);
     }
     ceduo_scene_release(&file);
-    put("draws.csv", "slope.materials[talus].rn\n0.25\n"); /* else it is where the file says so */
+    put("draws.csv", "slope.materials[talus].rn\n0.25\n"); /* otherwise its place is in the file */
     read_scene(&file, "uncertainty: {draws: draws.csv}\n" CLIFF_AND_TALUS, NULL, 0, NULL);
     assert_int_equal(file.inputs[0].places_count, 1);
     assert_string_equal(file.inputs[0].places[0], "slope.segments[1].rn");
     ceduo_scene_release(&file);
 }
 
-/* A table of very many columns: all are taken. */
+/* A table with very many columns: all are read. */
 TEST_WITH(draws_of_many_columns, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_text_free) struct text profile = {0}, heads = {0}, draws = {0};
@@ -231,17 +230,17 @@ TEST_WITH(draws_of_many_columns, folder_set_up, folder_tear_down)
 
 /* ---- inputs ---- */
 
-/* The belt of a place; what is no place of a belt of this scene is in none. */
+/* Return the belt of a place; a place that is not in a belt has none. */
 TEST_WITH(places_have_belts, folder_set_up, folder_tear_down)
 {
     struct scene_file file;
     read_scene(&file, "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}]", NULL, 0, NULL);
     const struct ceduo_scene *s = &file.scene;
     assert_ptr_equal(ceduo_input_belt(s, "options[1].forest[0].stand.stools.per_ha"), &s->options[1].belts[0]);
-    const char *const none[] = {"options[0].forest[0].to_m", "options[1].forest[1].to_m", "options[4000000000].forest[0].to_m",
-                                "forest[0].to_m", "rock.density_kg_m3"};
-    for (size_t i = 0; i < LENGTH(none); i++)
-        assert_null(ceduo_input_belt(s, none[i]));
+    const char *const missing[] = {"options[0].forest[0].to_m", "options[1].forest[1].to_m",
+                                   "options[4000000000].forest[0].to_m", "forest[0].to_m", "rock.density_kg_m3"};
+    for (size_t i = 0; i < LENGTH(missing); i++)
+        assert_null(ceduo_input_belt(s, missing[i]));
     ceduo_scene_release(&file);
     read_scene(&file, "forest: [{" BELT "}}]", NULL, 0, NULL);
     assert_ptr_equal(ceduo_input_belt(&file.scene, "forest[0].to_m"), &file.scene.options[0].belts[0]);
@@ -250,7 +249,7 @@ TEST_WITH(places_have_belts, folder_set_up, folder_tear_down)
     ceduo_scene_release(&file);
 }
 
-/* The strength of the wood of one species is one input wherever it stands; that of another is another. */
+/* The wood strength of one species is one input wherever it occurs; another species is another input. */
 TEST_WITH(strength_is_of_a_species, folder_set_up, folder_tear_down)
 {
     static const char wood[] = "trees: [{per_ha: 10, " TREE "}], energy: {model: dorren, "
@@ -277,7 +276,7 @@ TEST_WITH(strength_is_of_a_species, folder_set_up, folder_tear_down)
     assert_string_equal(inputs.items[0].path, "rock.density_kg_m3");
 }
 
-/* Groups are of trees: where there are none, or each is alone, there are no groups. */
+/* Groups consist of trees: without trees, or with single ones, there are no groups. */
 TEST_WITH(groups_are_of_trees, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -293,8 +292,8 @@ TEST_WITH(groups_are_of_trees, folder_set_up, folder_tear_down)
 
 /* ---- changes ---- */
 
-/* A stand whose file has no name may be given one; it is then no other that was changed. */
-TEST_WITH(a_name_of_its_own, folder_set_up, folder_tear_down)
+/* A stand file without a name may get one; the stand is still the same. */
+TEST_WITH(a_stand_may_get_a_name, folder_set_up, folder_tear_down)
 {
     static const char *const sets[] = {"forest[0].stand.name=mine", "forest[0].stand.stools.per_ha=1500"};
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -313,8 +312,8 @@ static size_t notes_of_mu(const struct scene_file *file)
     return n;
 }
 
-/* What is assumed of a ground goes with the law of contacts, also where the slope is as it was. */
-TEST_WITH(another_law_assumes_other_things, folder_set_up, folder_tear_down)
+/* Assumptions about a ground follow the contact law, also on an unchanged slope. */
+TEST_WITH(another_law_has_other_assumptions, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
@@ -333,7 +332,7 @@ TEST_WITH(another_law_assumes_other_things, folder_set_up, folder_tear_down)
 
 /* ---- problems, notes and ranges ---- */
 
-/* A shape that a change sets does not go with the sizes of the file: what is proposed instead does. */
+/* A shape set by a change does not fit the sizes in the file; the proposed fix does. */
 TEST(shapes_of_changes)
 {
     const struct {
@@ -355,13 +354,13 @@ TEST(shapes_of_changes)
         assert_non_null(proposed);
         proposed += strlen("give the whole rock: -s '");
         *strchr(proposed, '\'') = '\0';
-        struct problems none = {0};
-        if (!ceduo_scene_set(&file, "--set", proposed, &none) || !ceduo_scene_bind(&file, &none))
-            fail_msg("%s: %s: %s", rows[i].rock, proposed, ceduo_problems_print(&none));
+        struct problems missing = {0};
+        if (!ceduo_scene_set(&file, "--set", proposed, &missing) || !ceduo_scene_bind(&file, &missing))
+            fail_msg("%s: %s: %s", rows[i].rock, proposed, ceduo_problems_print(&missing));
     }
 }
 
-/* The same fault once; of a message without end the beginning and the end, whole characters; none beyond so many. */
+/* Equal problems appear once; a very long message keeps its beginning and end in whole characters; the number is limited. */
 TEST(problems_are_put_together)
 {
     struct problems problems = {0};
@@ -395,7 +394,7 @@ TEST(problems_are_put_together)
         EXPECT(problems.text.length, <, 1100);
         ceduo_problems_free(&problems);
     }
-    char ends[1301] = {0}; /* of nothing but ends of characters neither beginning nor end is left */
+    char ends[1301] = {0}; /* continuation bytes alone leave nothing */
     memset(ends, '\x80', sizeof ends - 1);
     ceduo_problem(&problems, NULL, 0, 0, "%s", ends);
     assert_string_equal(ceduo_problems_print(&problems), "\xe2\x80\xa6\n");
@@ -406,13 +405,13 @@ TEST(problems_are_put_together)
     assert_null(strstr(ceduo_problems_print(&problems), "kind aau\n"));
     assert_non_null(strstr(ceduo_problems_print(&problems), "4980 more problems\n"));
     ceduo_problems_free(&problems);
-    for (int i = 0; i < 8; i++) /* of one kind, and on no line */
+    for (int i = 0; i < 8; i++) /* one kind, no line */
         ceduo_problem(&problems, NULL, 0, 0, "kind %d", i);
     assert_string_equal(ceduo_problems_print(&problems), "kind 0\n  and 7 more of this kind\n");
     ceduo_problems_free(&problems);
 }
 
-/* Where a value comes from is said by the innermost mapping on the way to it. */
+/* The innermost mapping on the path gives a value's source. */
 TEST(notes_are_found)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -422,7 +421,7 @@ TEST(notes_are_found)
         "forest: [{from_m: 10, to_m: 80, source: {kind: assumed, text: belt}, stand: {source: {kind: measured, text: stand}, "
         "stools: {per_ha: 2000, spacing_m: 0.4, source: {kind: assumed, text: stools}}, shoots: [{per_ha: 6000, dbh_m: 0.06, "
         "height_m: 6}]}}, "
-        /* its own source goes before one that is not of it, whichever is given first */
+        /* its own source takes precedence over an outer one, in either order */
         "{from_m: 80, to_m: 84, stand: {source: {kind: measured, except: [energy]}, energy: {source: {kind: assumed, text: "
         "own}}}}, "
         "{from_m: 84, to_m: 90, stand: {energy: {source: {kind: assumed, text: own}}, source: {kind: measured, except: "
@@ -440,9 +439,9 @@ TEST(notes_are_found)
                  ceduo_notes_print(file.notes, "assumed", "forest[0].sta"));
 }
 
-/* ---- the table of parameters ---- */
+/* ---- table of parameters ---- */
 
-TEST(ranges_are_told)
+TEST(ranges_are_reported)
 {
     for (TABLE(row, "unit/texts.txt", "ranges")) {
         LOCAL_TEXT(text);

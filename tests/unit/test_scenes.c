@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene is made of: stands that start from others, grounds of the library, sources of values. */
+/* Parts of a scene: stands with a base, grounds of the library, sources of values. */
 #include "local.h"
 #include "table.h"
 
@@ -19,14 +19,14 @@ __attribute__((format(printf, 2, 3))) static void write_file(const char *name, c
     put(name, text.bytes);
 }
 
-/* Reads scene.yaml; what is wrong with it is put into `told`. */
-static bool read_scene(struct scene_file *file, char told[4096])
+/* Read scene.yaml; put its problems into `messages`. */
+static bool read_scene(struct scene_file *file, char messages[4096])
 {
     char path[256];
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     in_folder(path, "scene.yaml");
     bool good = ceduo_scene_load(file, path, NULL, 0, &problems);
-    snprintf(told, 4096, "%s", ceduo_problems_print(&problems));
+    snprintf(messages, 4096, "%s", ceduo_problems_print(&problems));
     return good;
 }
 
@@ -36,7 +36,7 @@ static bool read_scene(struct scene_file *file, char told[4096])
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 90}]\n"                                                         \
     "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
 
-/* Stands 0 to n, each of which starts from the next; each says one thing of its own. */
+/* Stands 0 to n, each with the next as its base, and one key of its own. */
 static void write_chain(int n)
 {
     for (int i = 0; i <= n; i++) {
@@ -50,8 +50,8 @@ static void write_chain(int n)
     }
 }
 
-/* Eight steps from a stand's file to the one that has no base, and eight from a stand in the scene; one more is told where
- * it is taken. */
+/* Eight steps from a stand's file to the last base, and eight from a stand in the scene; a ninth is reported at its
+ * reference. */
 TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
 {
     const char *const stands[] = {"0.yaml", "{base: 1.yaml, trees: [{per_ha: 100, dbh_m: 0.2, height_m: 9}]}",
@@ -59,10 +59,10 @@ TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
     for (int n = 1; n <= 10; n++)
         for (size_t i = 0; i < LENGTH(stands); i++) {
             LOCAL_BY(ceduo_scene_release) struct scene_file file;
-            char told[4096], place[160];
+            char messages[4096], place[160];
             write_chain(n);
             write_file("scene.yaml", REST "forest: [{from_m: 10, to_m: 80, stand: %s}]\n", stands[i]);
-            assert_int_equal(read_scene(&file, told), n <= 8);
+            assert_int_equal(read_scene(&file, messages), n <= 8);
             if (n <= 8) {
                 const struct ceduo_belt *belt = &file.scene.options[0].belts[0];
                 assert_string_equal(belt->name, i == 2 ? "own" : i == 1 ? "last (changed)" : "last");
@@ -71,8 +71,8 @@ TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
             } else {
                 snprintf(place, sizeof place,
                          "%s/8.yaml:2:7: base: more than 8 files in a chain of 'base'; do they form a loop?\n", folder);
-                if (strstr(told, place) != told)
-                    fail_msg("%s", told);
+                if (strstr(messages, place) != messages)
+                    fail_msg("%s", messages);
             }
         }
 }
@@ -81,10 +81,10 @@ TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
 
 struct vertex {
     double x, z;
-    const char *ground; /* of the segment that begins here */
+    const char *ground; /* segment that starts here */
 };
 
-/* Middles of the ranges in use with CRSP 3.0. */
+/* Midpoints of the ranges used with CRSP 3.0. */
 static void expect_ground(const struct ceduo_segment *s, const char *name)
 {
     const struct {
@@ -102,11 +102,11 @@ static void expect_ground(const struct ceduo_segment *s, const char *name)
     fail_msg("%s", name);
 }
 
-/* The profile (0, 50), (40, 20), (100, 0) at `x`, `z`, cut where its grounds meet: on the line, and each side its own. */
+/* Cut the profile (0, 50), (40, 20), (100, 0) at `x`, `z` between its grounds: on the line, with each side's own ground. */
 static void expect_cut(double x, double z, const char *materials, const struct vertex *wanted, bool csv)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    char told[4096];
+    char messages[4096];
     write_file("line.csv", "distance,elevation\n%.17g,%.17g\n%.17g,%.17g\n%.17g,%.17g\n", x, z + 50, x + 40, z + 20, x + 100,
                z);
     LOCAL_TEXT(profile);
@@ -118,8 +118,8 @@ static void expect_cut(double x, double z, const char *materials, const struct v
     write_file("scene.yaml",
                "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: %.17g}]\nslope: {%s, materials: [%s]}\n", x + 90,
                profile.bytes, materials);
-    if (!read_scene(&file, told))
-        fail_msg("%s", told);
+    if (!read_scene(&file, messages))
+        fail_msg("%s", messages);
     const struct ceduo_slope *s = &file.scene.slope;
     size_t n = 0;
     for (; wanted[n].ground; n++) {
@@ -137,7 +137,7 @@ static void expect_cut(double x, double z, const char *materials, const struct v
 TEST_WITH(grounds_meet_anywhere, folder_set_up, folder_tear_down)
 {
     const struct {
-        double borders[4]; /* from the profile's begin; NAN: its end */
+        double borders[4]; /* from the profile's start; NAN: its end */
         const char *grounds[3];
         struct vertex wanted[6];
     } rows[] = {{{0, 10, 70, 100},
@@ -156,7 +156,7 @@ TEST_WITH(grounds_meet_anywhere, folder_set_up, folder_tear_down)
                  {"cliff", "talus", "colluvium"}, /* beyond both ends */
                  {{0, 50, "cliff"}, {10, 42.5, "talus"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
                 {{-30, -10, 100, 400},
-                 {"cliff", "talus", "colluvium"}, /* outside: of no segment */
+                 {"cliff", "talus", "colluvium"}, /* outside: no segment */
                  {{0, 50, "talus"}, {40, 20, "talus"}}},
                 {{0, 0.25, 99.75, 100},
                  {"cliff", "talus", "cliff"}, /* close to the ends */
@@ -189,7 +189,7 @@ static const char stand[] = "ceduo: stand/1\n" M "\nstools: {per_ha: 2000, spaci
                             "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\n"
                             "trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}, {per_ha: 6, dbh_m: 0.4, height_m: 15, " A "}]\n";
 
-/* The source of a mapping as it is written; "" where it has none. */
+/* Expect the source of a mapping as written; "" if none. */
 static void expect_source(const struct scene_file *file, const char *map, const char *wanted, const char *set)
 {
     const char *within;
@@ -204,7 +204,7 @@ static void expect_source(const struct scene_file *file, const char *map, const 
         fail_msg("after %s the source of '%s' is %s, not %s", set, map, text.bytes, wanted);
 }
 
-/* The innermost source around a value that was changed is not of it any more, and no other is touched. */
+/* After a change the innermost source no longer covers the value; other sources stay. */
 TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
 {
     static const char *const maps[][2] = {{"", "m"},
@@ -223,9 +223,9 @@ TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
     for (TABLE(row, "unit/sources.txt", "sources")) {
         LOCAL_BY(ceduo_scene_release) struct scene_file file;
         LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-        char told[4096], plain[64], sets[256], *change, *rest = sets;
-        if (!read_scene(&file, told))
-            fail_msg("%s", told);
+        char messages[4096], plain[64], sets[256], *change, *rest = sets;
+        if (!read_scene(&file, messages))
+            fail_msg("%s", messages);
         snprintf(sets, sizeof sets, "%s", row.at[0]);
         while ((change = strsep(&rest, ";")))
             assert_true(ceduo_scene_set(&file, "--set", change + strspn(change, " "), &problems));
@@ -241,15 +241,15 @@ TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
     }
 }
 
-/* A mapping that is put in whole comes without the source of the old one, and the one around it is not of it. */
-TEST_WITH(a_new_mapping_has_no_old_source, folder_set_up, folder_tear_down)
+/* A new mapping does not inherit the source of the old one, nor the outer source. */
+TEST_WITH(a_new_mapping_does_not_inherit_a_source, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    char told[4096];
+    char messages[4096];
     write_file("stand.yaml", "%s", stand);
     write_file("scene.yaml", "%s", sourced);
-    assert_true(read_scene(&file, told));
+    assert_true(read_scene(&file, messages));
     assert_true(ceduo_scene_set(&file, "--set", "rock.diameter_m=0.6", &problems));
     expect_source(&file, "rock", "{kind: measured, text: m, except: [diameter_m]}", "rock.diameter_m");
     assert_true(ceduo_scene_set(&file, "--set", "release={vx_m_s: 2}", &problems));

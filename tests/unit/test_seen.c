@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is shown of things seen, against closed forms: the band of stops is binomial; a scene as it is has the band of a flight. */
+/* Displays of observations, in closed form: the band of stops is binomial; a comparison without a fit has the band of a
+ * flight. */
 #include "expect.h"
 #include "local.h"
 
@@ -14,12 +15,12 @@
 #define FIRST 0
 #define LAST  (CEDUO_STOPS_PLACES - 1)
 
-/* Of ten rocks that all stopped, half of the simulated lie beyond the middle: a binomial law of 10 and 1/2 has 0.0107 up to 1 and
+/* Ten stopped rocks, and half of the simulated ones beyond the median: the binomial law of 10 and 1/2 has 0.0107 up to 1 and
  * 0.0547 up to 2, and is symmetric. */
-TEST(half_of_ten)
+TEST(band_of_half_of_ten)
 {
-    double seen[10] = {0, 1, 1, 1, 1, 1, 9, 9, 9, 10}, simulated[4] = {0, 1, 9, 10};
-    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 10, .values = seen};
+    double observed[10] = {0, 1, 1, 1, 1, 1, 9, 9, 9, 10}, simulated[4] = {0, 1, 9, 10};
+    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 10, .values = observed};
     struct ceduo_observed_stops s = {0};
     ceduo_observed_stops_find(&o, simulated, 4, 4, &s);
     size_t middle = CEDUO_STOPS_PLACES / 2;
@@ -33,13 +34,13 @@ TEST(half_of_ten)
     EXPECT_NEAR(s.hi[middle], 0.8, 1e-12);
     EXPECT_NEAR(s.hi[LAST], 0, 1e-12);
     const struct ceduo_observation five = {.kind = CEDUO_OBSERVED_STOPS, .n = 5, .values = (double[]){0, 1, 1, 9, 10}};
-    ceduo_observed_stops_find(&five, simulated, 4, 4, &s); /* none and all of them have chances of 1/32: above 2.5 % */
+    ceduo_observed_stops_find(&five, simulated, 4, 4, &s); /* none and all have probability 1/32: above 2.5 % */
     EXPECT_NEAR(s.lo[middle], 0, 1e-12);
     EXPECT_NEAR(s.hi[middle], 1, 1e-12);
 }
 
-/* Where it is known how many were released, those that went on lie farther: of the rocks seen 6 of 10, of the simulated 4 of 8. */
-TEST(those_that_go_on_lie_farther)
+/* If the number released is known, rocks that went on lie farther: 6 of 10 observed, 4 of 8 simulated. */
+TEST(rocks_that_did_not_stop_lie_farther)
 {
     double seen[4] = {2, 3, 4, 5}, simulated[4] = {1, 2, 3, 6};
     const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .released_count = 10, .values = seen};
@@ -54,7 +55,7 @@ TEST(those_that_go_on_lie_farther)
     EXPECT_NEAR(s.hi[FIRST], 1, 1e-12);
 }
 
-/* All at one place have no extent along the slope. */
+/* Stops at one place have no extent along the slope. */
 TEST(one_place_has_no_picture)
 {
     double one = 5;
@@ -64,9 +65,9 @@ TEST(one_place_has_no_picture)
     EXPECT(s.known, ==, false);
 }
 
-/* Rocks that are alike fly 20 m in 2 s: hypot(10, 9.81 * 2) = 22.021 m/s. The band is that of the mean of five that differ by
- * 0.5 m/s; one that was seen 2 m/s below cannot be. All pass. */
-TEST(a_flight_as_it_is)
+/* Equal rocks fly 20 m in 2 s: hypot(10, 9.81 * 2) = 22.021 m/s. The band is the mean's of five that differ by 0.5 m/s; one
+ * observed 2 m/s below is impossible. All pass. */
+TEST(a_flight_without_a_fit)
 {
     struct ground g;
     ground_make(&g, 200, 0, 100, 10, 0);
@@ -92,8 +93,8 @@ TEST(a_flight_as_it_is)
     EXPECT(ceduo_compare_with_observations(&asked, 100, NULL, p), !=, CEDUO_OK);
 }
 
-/* Two shapes, both to be fitted, under the law that knows a shape. */
-TEST(two_shapes_tell_mu)
+/* Two shapes, both fitted, under the law that uses the shape. */
+TEST(two_shapes_identify_mu)
 {
     struct ceduo_scene scene = ceduo_scene_default();
     scene.simulation.law = CEDUO_LAW_ARM;
@@ -109,35 +110,35 @@ TEST(two_shapes_tell_mu)
     const struct ceduo_calibration_scene scenes[2] = {{.scene = &scene, .observations_count = 3, .observations = o},
                                                       {.scene = &scene, .observations_count = 1, .observations = o}};
     o[1].rock = &larger;
-    assert_false(ceduo_calibration_identifies_mu(scenes, 2)); /* of one shape */
+    assert_false(ceduo_calibration_identifies_mu(scenes, 2)); /* one shape */
     o[2].rock = &plate;
     assert_true(ceduo_calibration_identifies_mu(scenes, 2));
     assert_false(ceduo_calibration_identifies_mu(scenes, 0));
     o[2].use = CEDUO_OBSERVED_CHECK;
-    assert_false(ceduo_calibration_identifies_mu(scenes, 2)); /* the other is not fitted */
+    assert_false(ceduo_calibration_identifies_mu(scenes, 2)); /* the other one is not fitted */
     o[2].use = CEDUO_OBSERVED_FIT;
     scene.simulation.law = CEDUO_LAW_LUMPED;
     assert_false(ceduo_calibration_identifies_mu(scenes, 2));
 }
 
-/* ---- a fit that is ended ---- */
+/* ---- a fit that is stopped ---- */
 
 struct ending {
     atomic_bool cancelled;
     enum ceduo_calibration_stage stage;
 };
 
-static void cancel_at(void *context, const struct ceduo_calibration_state *state)
+static void cancel_at_stage(void *context, const struct ceduo_calibration_state *state)
 {
     struct ending *e = context;
     if (state->stage >= e->stage)
         atomic_store(&e->cancelled, true);
 }
 
-/* Level ground, and rocks that fall 100 m on it: what they have then, hypot(v, sqrt(2 g h)), tells their speed v. */
+/* Level ground, and rocks that fall 100 m: their final speed, hypot(v, sqrt(2 g h)), identifies v. */
 static struct flight {
     struct ground ground;
-    struct ceduo_observation seen;
+    struct ceduo_observation observed;
 } flights[2];
 
 static const char *const speed = "release.vx_m_s", *const place = "release.x_m";
@@ -150,44 +151,44 @@ static struct ceduo_input range(const char *const *path, double lo, double hi)
 static void make_flight(struct flight *f, double v, double sd)
 {
     ground_make(&f->ground, 200, 0, 100, 10, 0);
-    f->seen = (struct ceduo_observation){
+    f->observed = (struct ceduo_observation){
         .kind = CEDUO_OBSERVED_LARGEST_SPEED, .n = 5, .mean = hypot(v, sqrt(2 * 9.81 * 100)), .sd = sd};
 }
 
-static struct ceduo_calibration_def fit_of(const struct ceduo_calibration_scene *scenes, size_t n, size_t parameters)
+static struct ceduo_calibration_def run_fit(const struct ceduo_calibration_scene *scenes, size_t n, size_t parameters)
 {
     return (struct ceduo_calibration_def){
         .scenes_count = n, .scenes = scenes, .parameters_count = parameters, .rocks = 2, .seed = 1, .threads = 1};
 }
 
-/* Whenever it is ended, there is no answer. */
-TEST(a_fit_is_ended)
+/* Stopped at any time, there is no result. */
+TEST(a_fit_can_be_stopped)
 {
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
-    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
-    struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
+    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].observed};
+    struct ceduo_calibration_def def = run_fit(&fitted, 1, 1);
     struct ceduo_calibration a;
     struct ending e;
     def.cancel = &e.cancelled;
-    def.progress = cancel_at;
+    def.progress = cancel_at_stage;
     def.context = &e;
     for (int stage = CEDUO_SEARCH; stage <= CEDUO_CHAINS; stage++) {
         e = (struct ending){false, (enum ceduo_calibration_stage)stage};
         EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_CANCELLED);
     }
-    e = (struct ending){true, CEDUO_SEARCH}; /* before anything is known */
+    e = (struct ending){true, CEDUO_SEARCH}; /* before any result */
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_CANCELLED);
 }
 
-/* Chains of a given length end there, whether they agree or not: of two rounds the second half of each of four chains is drawn
- * from. Cancelled as they end, there is no answer. */
+/* Chains of a given length stop there, converged or not: of two rounds the second half of each of four chains is used. If
+ * cancelled at their end, there is no result. */
 TEST(a_fit_of_few_steps)
 {
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
-    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
-    struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
+    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].observed};
+    struct ceduo_calibration_def def = run_fit(&fitted, 1, 1);
     struct ceduo_calibration a;
     def.steps_max = 2 * 50 + 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
@@ -201,18 +202,18 @@ TEST(a_fit_of_few_steps)
     ceduo_calibration_free(&a);
     struct ending e = {false, CEDUO_CHAINS};
     def.cancel = &e.cancelled;
-    def.progress = cancel_at;
+    def.progress = cancel_at_stage;
     def.context = &e;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_CANCELLED);
 }
 
-/* Without draws nothing is known of how two values hang together. */
+/* Without draws two values have no correlation. */
 TEST(two_values_without_draws)
 {
     const struct ceduo_input inputs[2] = {range(&speed, 5, 15), range(&place, 0, 50)};
     make_flight(&flights[0], 10, 0.1);
-    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, inputs, 1, &flights[0].seen};
-    struct ceduo_calibration_def def = fit_of(&fitted, 1, 2);
+    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, inputs, 1, &flights[0].observed};
+    struct ceduo_calibration_def def = run_fit(&fitted, 1, 2);
     LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
     def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
@@ -221,9 +222,9 @@ TEST(two_values_without_draws)
     assert_true(isnan(a.correlation[0][1]) && isnan(a.correlation[1][0]));
 }
 
-/* One of two scenes ends at 30 m, and what was seen in the other was a fall over an edge at 60 m, which only rocks released
- * beyond 40 m reach: the place must be one that both scenes have, however badly that fits. */
-TEST(a_scene_that_does_not_fit_together)
+/* One of two scenes ends at 30 m. The other's observation is a fall over an edge at 60 m, which only rocks released beyond 40 m
+ * reach. The fitted place must exist in both scenes, however badly it fits. */
+TEST(a_place_exists_in_both_scenes)
 {
     const struct ceduo_input input = range(&place, 0, 100);
     struct ceduo_calibration_scene fitted[2];
@@ -234,36 +235,36 @@ TEST(a_scene_that_does_not_fit_together)
         make_flight(&flights[i], 10, 0.1);
         flights[i].ground.segment.friction = 2;
         flights[i].ground.scene.release.height = ceduo_number(5);
-        fitted[i] = (struct ceduo_calibration_scene){&flights[i].ground.scene, &input, 1, &flights[i].seen};
+        fitted[i] = (struct ceduo_calibration_scene){&flights[i].ground.scene, &input, 1, &flights[i].observed};
     }
     flights[0].ground.x[1] = 30;
-    flights[0].seen.mean = hypot(10, sqrt(2 * 9.81 * 5));
+    flights[0].observed.mean = hypot(10, sqrt(2 * 9.81 * 5));
     for (size_t i = 0; i < 3; i++)
         segments[i] = flights[1].ground.segment;
     flights[1].ground.scene.slope =
         (struct ceduo_slope){.vertices = 4, .x = x, .z = z, .segments = segments, .segments_given = 3};
-    struct ceduo_calibration_def def = fit_of(fitted, 2, 1);
+    struct ceduo_calibration_def def = run_fit(fitted, 2, 1);
     def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.parameters[0].best, <, 30);
     ceduo_calibration_free(&a);
-    def = fit_of(&fitted[1], 1, 1);
+    def = run_fit(&fitted[1], 1, 1);
     def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.parameters[0].best, >, 40);
     ceduo_calibration_free(&a);
 }
 
-/* A value of which half of the draws lie within the last 5 % of its bounds is at its bound, even where the best is 3 % away; at
- * 10 % it is not. */
+/* A value with half of its draws in the last 5 % of its bounds is at its bound, even if the best is 3 % away; at 10 % it is
+ * not. */
 TEST(half_of_the_draws_at_a_bound)
 {
     const struct ceduo_input input = range(&speed, 5, 15);
     const double v[2] = {5.3, 6};
     for (int i = 0; i < 2; i++) {
         make_flight(&flights[0], v[i], 0.01);
-        const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
-        struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
+        const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].observed};
+        struct ceduo_calibration_def def = run_fit(&fitted, 1, 1);
         LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
         def.steps_max = 251;
         EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);

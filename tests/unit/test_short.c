@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The short page of every scene that comes with the program, from 80 to 200 columns: no line is wider, none ends in a blank, and
- * the page has no more lines than a screen. */
+/* The short page of every shipped scene, from 80 to 200 columns: no line is wider, none ends in a blank, and it fits a
+ * screen. */
 #include "expect.h"
 #include "local.h"
 
@@ -59,7 +59,7 @@ static void check_scene(const char *path)
     ceduo_scene_release(&file);
 }
 
-TEST(every_scene_keeps_its_width_and_its_screen)
+TEST(every_scene_fits_its_width_and_a_screen)
 {
     glob_t scenes;
     assert_int_equal(glob("profiles/scenes/*.yaml", 0, NULL, &scenes), 0);

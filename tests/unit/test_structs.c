@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* The library, asked with any struct that its headers allow: each number at, inside or beyond its bounds, not a number, not
- * finite, each word beyond its list. It computes or refuses, and comes to an end. */
+/* The library with any struct that its headers allow: each number at, within or beyond its bounds, NaN or infinite, each word
+ * beyond its list. It computes or refuses, and always ends. */
 #include "expect.h"
 #include "full.h"
 #include "local.h"
@@ -16,7 +16,7 @@
 #include "scene/schema.h"
 
 #define ASKED   FULL_OR(100000, 6000)
-#define SECONDS 20 /* for one question: then it hangs */
+#define SECONDS 20 /* per question; longer means it hangs */
 
 static struct paper_site site;
 static struct ceduo_stems shoots[2], trees[2];
@@ -39,7 +39,7 @@ static double any_number(const struct field *f)
 
 static void change_field(const struct field *f, char *item);
 
-/* Changes some member of an item, or of what it holds. */
+/* Change a member of an item, or of its content. */
 static void change(const struct object *object, char *item)
 {
     change_field(&object->fields[draw(object->n)], item);
@@ -125,17 +125,17 @@ TEST(any_struct_is_refused_or_computed)
         EXPECT(status, !=, CEDUO_NO_MEMORY);
         ceduo_results_release(&a);
     }
-    EXPECT(computed, >, asked / 4); /* and not all is refused */
+    EXPECT(computed, >, asked / 4); /* and not all are refused */
     EXPECT(computed, <, asked * 9 / 10);
 }
 
-/* ---- numbers that say how much is asked ---- */
+/* ---- counts ---- */
 
 #define PICK(...) ((const uint64_t[]){__VA_ARGS__})[draw(sizeof((const uint64_t[]){__VA_ARGS__}) / sizeof(uint64_t))]
 
 static const uint64_t beyond[] = {0, 1, 2, 3, 7, 1025, CEDUO_ROCKS_MAX + 1, 2000000000, UINT32_MAX, SIZE_MAX - 1, UINT64_MAX};
 
-/* A small number, in one of eight calls any of those beyond. */
+/* A small number, or in one of eight calls any larger one. */
 static uint64_t any_count(uint64_t small)
 {
     return draw(8) ? draw(small + 1) : beyond[draw(LENGTH(beyond))];
@@ -154,7 +154,7 @@ static struct ceduo_window any_window(void)
     return w;
 }
 
-/* Lists that are shorter, or said to be there and are not. */
+/* Make lists shorter, or NULL with a count. */
 static void change_counts(void)
 {
     struct ceduo_scene *s = &site.scene;
@@ -165,10 +165,10 @@ static void change_counts(void)
                               &stand->shoots_count, &stand->trees_count, &stand->cutting.retained_count,
                               &s->blocks_count};
     size_t *count = counts[draw(LENGTH(counts))];
-    void *none = NULL;
+    void *missing = NULL;
     *count = *count > 0 && draw(2) ? draw(*count) : *count;
     if (draw(8) == 0)
-        memcpy(lists[draw(LENGTH(lists))], &none, sizeof none);
+        memcpy(lists[draw(LENGTH(lists))], &missing, sizeof missing);
     if (stand->trees && draw(8) == 0)
         stand->trees->per_ha = draw(2) ? DBL_MAX : 1e11;
 }
@@ -217,7 +217,7 @@ static enum ceduo_status ask_any(void)
     q.block_rocks = draw(4) ? 0 : any_count(5);
     q.tolerance = draw(4) ? 0 : .5;
     enum ceduo_status status = ceduo_simulate_request(&q, NULL, &a);
-    for (size_t i = 0; status == CEDUO_OK && i < 2; i++) /* indices beyond what there is */
+    for (size_t i = 0; status == CEDUO_OK && i < 2; i++) /* indices out of range */
         ceduo_result_wooded(a.result, any_count(1), any_count(1));
     ceduo_results_release(&a);
     return status;
@@ -300,7 +300,7 @@ static enum ceduo_status ask_any_other(void)
     }
 }
 
-/* A small number of them by default; 10^5 with FULL. */
+/* Few by default; 10^5 with FULL. */
 TEST(any_question_is_refused_or_computed)
 {
     uint64_t asked = (uint64_t)FULL_OR(100000, 2000), computed = 0, refused = 0;
@@ -322,7 +322,7 @@ TEST(any_question_is_refused_or_computed)
     EXPECT(refused, >, asked / 10);
 }
 
-/* One number of a good question at a time. */
+/* Change one argument of a valid question at a time. */
 TEST(each_bad_argument_is_refused)
 {
     open_site();
@@ -366,7 +366,7 @@ TEST(each_bad_argument_is_refused)
     def.inputs_count = 1;
     def.points = def.points_max = 4;
     def.rocks = 20;
-    def.threads = 0; /* one */
+    def.threads = 0; /* means 1 */
     EXPECT(ceduo_uncertainty_compute(&def, &uncertainty), ==, CEDUO_OK);
     EXPECT(uncertainty.points, ==, 4);
     ceduo_uncertainty_free(&uncertainty);
@@ -399,7 +399,7 @@ TEST(each_bad_argument_is_refused)
     assert_true(isnan(ceduo_observation_default().x) && isnan(ceduo_rock_def_default().diameter.mean));
 }
 
-/* A list that is said to be there and is not. */
+/* NULL lists with a count. */
 TEST(missing_lists_are_refused)
 {
     open_site();
@@ -422,9 +422,9 @@ TEST(missing_lists_are_refused)
                               &stand->trees,
                               &stand->cutting.stay_per_ha};
     for (size_t i = 0; i < LENGTH(pointers); i++) {
-        void *was, *none = NULL;
+        void *was, *missing = NULL;
         memcpy(&was, pointers[i], sizeof was);
-        memcpy(pointers[i], &none, sizeof none);
+        memcpy(pointers[i], &missing, sizeof missing);
         EXPECT(ceduo_scene_check(s, NULL), !=, CEDUO_OK);
         memcpy(pointers[i], &was, sizeof was);
         EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_OK);
@@ -433,7 +433,7 @@ TEST(missing_lists_are_refused)
     EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_BAD_ROCK);
 }
 
-TEST(as_many_rocks_as_are_asked_for)
+TEST(the_requested_number_of_rocks)
 {
     open_site();
     struct ceduo_request q = ceduo_request_default(&site.scene);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From plots to a stand: densities and their errors on a forest that is known, heights, classes, volumes. */
+/* From plots to a stand: densities and their errors in a known forest, heights, classes, volumes. */
 #include "local.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "expect.h"
 #include "physics/line_scene.h"
 
-#define SIDE    500.0 /* m of the made-up forest */
+#define SIDE    500.0 /* m, of the simulated forest */
 #define STOOLS  20000
 #define PLOTS   6
 #define SAMPLES 200
@@ -36,8 +36,8 @@ static void make_forest(struct forest *f)
     f->shoots_per_ha = shoots / (SIDE * SIDE) * 10000;
 }
 
-/* The stems on plots at random places. */
-static size_t visit(const struct forest *f, struct ceduo_survey_stem *stems, size_t *stools)
+/* Sample the stems on plots at random places. */
+static size_t sample_plots(const struct forest *f, struct ceduo_survey_stem *stems, size_t *stools)
 {
     size_t n = 0;
     *stools = 0;
@@ -60,7 +60,7 @@ static size_t visit(const struct forest *f, struct ceduo_survey_stem *stems, siz
     return n;
 }
 
-/* The interval of 95 % holds the truth in 92 to 97 % of 200 surveys of six plots. */
+/* The 95 % interval contains the truth in 92 to 97 % of 200 surveys of six plots. */
 TEST(intervals_hold_the_truth)
 {
     LOCAL_BYTES struct forest *f = calloc(1, sizeof *f);
@@ -77,7 +77,7 @@ TEST(intervals_hold_the_truth)
     for (int i = 0; i < SAMPLES; i++) {
         struct ceduo_survey s = {.plots_count = PLOTS, .areas = areas, .stems = stems};
         LOCAL_BY(ceduo_survey_free) struct ceduo_survey_result a;
-        s.stems_count = visit(f, stems, &s.stools_count);
+        s.stems_count = sample_plots(f, stems, &s.stools_count);
         assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
         const struct ceduo_estimate *n = &a.per_ha[CEDUO_SURVEY_SHOOT];
         shoots += n->lo <= f->shoots_per_ha && f->shoots_per_ha <= n->hi;
@@ -125,7 +125,7 @@ TEST(densities_by_hand)
     ceduo_survey_free(&a);
 }
 
-/* 400 m2 measured along a slope of 40 degrees are 306.418 m2 of the map. */
+/* 400 m2 along a slope of 40 degrees are 306.418 m2 on the map. */
 TEST(slopes_by_hand)
 {
     EXPECT_NEAR(ceduo_survey_horizontal(400, 40 * M_PI / 180), 306.418, 5e-4);
@@ -153,13 +153,12 @@ TEST(naslund_is_recovered)
     EXPECT_NEAR(found.a, truth.a, 1e-7);
     assert_int_equal(ceduo_naslund_fit(N, dbh, noisy, &found), CEDUO_OK);
     EXPECT_NEAR(found.rmse, 0.4, 0.06);
-    for (double d = 0.04; d < 0.32; d += 0.04) /* of 400 heights the mean is known to some 0.03 m */
+    for (double d = 0.04; d < 0.32; d += 0.04) /* the mean of 400 heights is known to some 0.03 m */
         EXPECT_NEAR(ceduo_naslund_height(&found, d), ceduo_naslund_height(&truth, d), 0.12);
 }
 
-/* Six heights beside a curve: the root of their mean square distance from it. Where the squares are least, their sum does not change
- * with a and b. */
-TEST(what_six_heights_leave)
+/* Six heights and a curve: the root mean square distance. At least squares the sum does not change with a and b. */
+TEST(residual_of_six_heights)
 {
     const double dbh[] = {.05, .1, .15, .2, .25, .3}, height[] = {5.2, 7.6, 10.7, 11.4, 12.9, 13.1};
     struct ceduo_naslund c;
@@ -177,7 +176,7 @@ TEST(what_six_heights_leave)
     EXPECT_NEAR(c.rmse, sqrt(squares / 6), 1e-12);
 }
 
-/* No curve: too few heights, one diameter alone, heights that fall. */
+/* No curve: too few heights, a single diameter, or decreasing heights. */
 TEST(naslund_is_refused)
 {
     const double dbh[] = {.05, .1, .15, .2, .25}, same[] = {.1, .1, .1, .1, .1};
@@ -196,7 +195,7 @@ static struct ceduo_survey_stem stem(enum ceduo_survey_kind kind, int species, d
         .kind = kind, .species = species, .dbh = dbh, .height = height, .spacing = NAN, .energy = NAN};
 }
 
-/* Classes of 5 cm, each kind by itself, with mean, sd and the volume of each stem by its own species. */
+/* Classes of 5 cm, each kind separately, with mean, sd and stem volumes by species. */
 TEST(classes_by_hand)
 {
     const int cerris = ceduo_species_find("quercus-cerris"), beech = ceduo_species_find("fagus-sylvatica");
@@ -240,8 +239,8 @@ TEST(classes_by_hand)
     EXPECT_NEAR(a.stools.mean, 100, 1e-9);
 }
 
-/* Heights that are missing: on the curve with five of them, the mean with fewer; shoots and trees each by their own. */
-TEST(heights_that_are_missing)
+/* Missing heights: from the curve with at least five, otherwise the mean; shoots and trees separately. */
+TEST(missing_heights)
 {
     const struct ceduo_naslund truth = {.a = 1.1, .b = 0.26};
     const double area = 1000;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of the scene: it covers every member, every row decides about what it says, defaults lie in their ranges, and
- * numbers are read and set in place by their paths. */
+/* The table of the scene covers every member, every row affects its subject, defaults are in range, and paths read and set
+ * numbers in place. */
 #include "expect.h"
 #include "local.h"
 
@@ -15,7 +15,7 @@
 
 /* ---- every byte ---- */
 
-/* Members that follow from others. */
+/* Members computed from others. */
 struct derived_member {
     const struct object *object;
     size_t offset, size;
@@ -39,7 +39,7 @@ static void mark_rows(bool *seen, const struct object *object, size_t size)
         bool counted = f->type == FIELD_LIST || f->type == FIELD_NUMBERS || f->type == FIELD_POINTS;
         if (f->type == FIELD_GROUP && f->size == 0)
             mark_rows(seen, f->object, size);
-        if (f->flags & FIELD_NO_MEMBER || f->offset >= size) /* or of the draft */
+        if (f->flags & FIELD_NO_MEMBER || f->offset >= size) /* or only in a draft */
             continue;
         mark(seen, f->offset, f->size);
         if (counted)
@@ -49,7 +49,7 @@ static void mark_rows(bool *seen, const struct object *object, size_t size)
     }
 }
 
-/* Which bytes are no member's. Where the compiler does not say, as many as no member is small enough for. */
+/* Bytes outside all members. If the compiler cannot list them, at most as many as the smallest member has. */
 #ifdef __has_builtin
 #if __has_builtin(__builtin_clear_padding)
 #define PADDING_IS_KNOWN 1
@@ -83,7 +83,7 @@ static void expect_whole(const char *name, const struct object *object, bool *se
         DERIVED(slope, ceduo_slope, points_z),
         DERIVED(ceduo_schema_field(scene, "release")->object, ceduo_release, x_assumed),
         DERIVED(ceduo_schema_stand(), ceduo_stand, counted_from),
-        DERIVED(ceduo_schema_field(ceduo_schema_stand(), "trees")->object, ceduo_stems, per_stool), /* shoots have it */
+        DERIVED(ceduo_schema_field(ceduo_schema_stand(), "trees")->object, ceduo_stems, per_stool), /* exists for shoots */
         DERIVED(belt, ceduo_belt, name),
         DERIVED(belt, ceduo_belt, name_given),
         DERIVED(belt, ceduo_belt, assumed),
@@ -101,7 +101,7 @@ static void expect_whole(const char *name, const struct object *object, bool *se
     }
 }
 
-static const struct object *object_of(const struct object *object, const char *key)
+static const struct object *find_object(const struct object *object, const char *key)
 {
     return ceduo_schema_field(object, key)->object;
 }
@@ -117,20 +117,20 @@ TEST(every_member_has_a_row)
 {
     const struct object *scene = ceduo_schema_scene(), *stand = ceduo_schema_stand();
     EXPECT_WHOLE(scene, ceduo_scene);
-    EXPECT_WHOLE(object_of(scene, "rock"), ceduo_rock_def);
-    EXPECT_WHOLE(object_of(scene, "release"), ceduo_release);
-    EXPECT_WHOLE(object_of(scene, "simulation"), ceduo_simulation);
-    EXPECT_WHOLE(object_of(scene, "controls"), ceduo_control);
-    EXPECT_WHOLE(object_of(scene, "options"), ceduo_option);
+    EXPECT_WHOLE(find_object(scene, "rock"), ceduo_rock_def);
+    EXPECT_WHOLE(find_object(scene, "release"), ceduo_release);
+    EXPECT_WHOLE(find_object(scene, "simulation"), ceduo_simulation);
+    EXPECT_WHOLE(find_object(scene, "controls"), ceduo_control);
+    EXPECT_WHOLE(find_object(scene, "options"), ceduo_option);
     EXPECT_WHOLE(ceduo_schema_slope(), ceduo_slope);
     EXPECT_WHOLE(ceduo_schema_segment(), ceduo_segment);
     EXPECT_WHOLE(ceduo_schema_belt(), ceduo_belt);
     EXPECT_WHOLE(stand, ceduo_stand);
-    EXPECT_WHOLE(object_of(stand, "trees"), ceduo_stems);
-    EXPECT_WHOLE(object_of(stand, "stumps"), ceduo_stumps);
-    EXPECT_WHOLE(object_of(stand, "logs"), ceduo_logs);
-    EXPECT_WHOLE(object_of(stand, "growth"), ceduo_growth);
-    EXPECT_WHOLE(object_of(object_of(stand, "growth"), "shoots"), ceduo_curve);
+    EXPECT_WHOLE(find_object(stand, "trees"), ceduo_stems);
+    EXPECT_WHOLE(find_object(stand, "stumps"), ceduo_stumps);
+    EXPECT_WHOLE(find_object(stand, "logs"), ceduo_logs);
+    EXPECT_WHOLE(find_object(stand, "growth"), ceduo_growth);
+    EXPECT_WHOLE(find_object(find_object(stand, "growth"), "shoots"), ceduo_curve);
 }
 
 /* ---- defaults ---- */
@@ -174,8 +174,8 @@ TEST(every_default_lies_in_its_range)
     assert_true(isnan(ceduo_segment_default().rn.mean));
 }
 
-/* A flag is raised only where its row says true. */
-TEST(flags_begin_as_their_rows_say)
+/* A flag is true only if its row sets it. */
+TEST(flags_have_their_default)
 {
     struct flags {
         bool raised, lowered, unsaid;
@@ -213,14 +213,14 @@ TEST(paths_of_rows)
             fail_msg("'%s' has a row", path);
 }
 
-/* ---- what a row decides about ---- */
+/* ---- effect of a row ---- */
 
-/* What a scene decides about. */
+/* Keys that a row can affect. */
 struct keys {
     uint64_t flight, years;
 };
 
-static struct keys keys_of(const struct ceduo_scene *scene)
+static struct keys compute_keys(const struct ceduo_scene *scene)
 {
     struct keys k = {ceduo_scene_key(scene), 0};
     for (size_t i = 0; i < scene->options_count; i++) {
@@ -237,7 +237,7 @@ static void read_scene(struct scene_file *file, const char *path)
         fail_msg("%s", ceduo_problems_print(&problems));
 }
 
-/* Whether the scene is good with a value, and its keys then. */
+/* True if the scene is valid with a value; sets its keys. */
 static bool keys_with(const char *scene, const char *path, const char *value, struct keys *k)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
@@ -247,11 +247,11 @@ static bool keys_with(const char *scene, const char *path, const char *value, st
     const char *const sets[] = {set.bytes};
     bool good = ceduo_scene_load(&file, scene, sets, 1, &problems);
     if (good)
-        *k = keys_of(&file.scene);
+        *k = compute_keys(&file.scene);
     return good;
 }
 
-/* Values to try, most of which are refused somewhere. */
+/* List values to try; most are invalid in some rows. */
 static size_t other_values(const struct field *f, const char **to)
 {
     static const char *const numbers[] = {"0.55", "1.5",  "15",  "150", "350",  "2",   "3",
@@ -282,8 +282,9 @@ static void check_row(void *context, const char *path, const struct field *f)
     if (f->type == FIELD_TAG || (strncmp(path, "slope.materials[]", 17) == 0 && f->type == FIELD_NUMBER) ||
         strcmp(f->key, "base") == 0 || strcmp(path, "slope.reversed") == 0 || strstr(path, "uncertainty[]") ||
         strncmp(path, "observed[]", 10) == 0 || strncmp(path, "options[].forest[].", 19) == 0)
-        return; /* grounds must meet, so that no end of one can be changed alone; a base is followed before it is set;
-                 * options hold what the forest does; a profile says itself whether it is reversed; of a uncertainty nothing can be changed alone; what was seen has test_observed.py */
+        return; /* grounds must meet, so one end cannot change alone; a base is followed before it is set; options hold the
+                 * forest; a profile decides if it is reversed; no member of uncertainty can change alone; test_observed.py
+                 * tests observations */
     first_place(path, f, "[1][1]", &place);
     for (size_t i = 0; i < LENGTH(scenes); i++) {
         const char *values[64];
@@ -308,13 +309,13 @@ static void check_row(void *context, const char *path, const struct field *f)
     ceduo_text_free(&place);
 }
 
-TEST(every_row_decides_about_what_it_says)
+TEST(every_row_affects_its_subject)
 {
     struct keys before[LENGTH(scenes)];
     for (size_t i = 0; i < LENGTH(scenes); i++) {
         LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
         read_scene(&file, scenes[i]);
-        before[i] = keys_of(&file.scene);
+        before[i] = compute_keys(&file.scene);
     }
     ceduo_schema_visit(ceduo_schema_scene(), "", check_row, before);
     struct keys moved;
@@ -325,10 +326,10 @@ TEST(every_row_decides_about_what_it_says)
     EXPECT(moved.flight, !=, before[2].flight);
 }
 
-/* ---- typed get and put ---- */
+/* ---- typed access ---- */
 
-/* A put says and does the same as --set. */
-static void check_put(void *context, const char *path, const struct field *f)
+/* Expect a typed set to report and do the same as --set. */
+static void check_set(void *context, const char *path, const struct field *f)
 {
     (void)context;
     struct text place = {0};
@@ -360,7 +361,7 @@ static void check_put(void *context, const char *path, const struct field *f)
                 continue;
             if (strcmp(f->key, "per_stool") == 0)
                 ceduo_stand_update_shoot_density(&file.scene.options[0].belts[0].stand);
-            struct keys now = keys_of(&file.scene);
+            struct keys now = compute_keys(&file.scene);
             if (!good || now.flight != set.flight || now.years != set.years)
                 fail_msg("%s=%s: set is another scene than put", place.bytes, values[k]);
         }
@@ -369,9 +370,9 @@ static void check_put(void *context, const char *path, const struct field *f)
     ceduo_text_free(&place);
 }
 
-TEST(put_is_as_set)
+TEST(typed_set_equals_text_set)
 {
-    ceduo_schema_visit(ceduo_schema_scene(), "", check_put, NULL);
+    ceduo_schema_visit(ceduo_schema_scene(), "", check_set, NULL);
 }
 
 static void expect_none(struct ceduo_scene *scene, const char *paths)
@@ -382,8 +383,8 @@ static void expect_none(struct ceduo_scene *scene, const char *paths)
             fail_msg("'%s' is found", path);
 }
 
-/* A number is found, and what it is. */
-static struct value found(struct ceduo_scene *scene, const char *path, double number)
+/* Find a number and check its value. */
+static struct value find_number(struct ceduo_scene *scene, const char *path, double number)
 {
     struct value v;
     assert_true(ceduo_value_find(scene, path, &v));
@@ -391,8 +392,8 @@ static struct value found(struct ceduo_scene *scene, const char *path, double nu
     return v;
 }
 
-/* It is found and put. */
-static struct value put_at(struct ceduo_scene *scene, const char *path, double number)
+/* Find a number and set it. */
+static struct value set_number(struct ceduo_scene *scene, const char *path, double number)
 {
     struct value v;
     assert_true(ceduo_value_find(scene, path, &v));
@@ -406,27 +407,27 @@ TEST(paths_of_numbers)
     struct value v;
     read_scene(&file, scenes[1]);
     struct ceduo_scene *s = &file.scene;
-    v = found(s, "options[a].forest[wood].stand.trees[0].per_ha", 80);
-    v = found(s, "controls[road].accepted_kJ", 80);
+    v = find_number(s, "options[a].forest[wood].stand.trees[0].per_ha", 80);
+    v = find_number(s, "controls[road].accepted_kJ", 80);
     assert_true(ceduo_value_set(&v, 90));
     EXPECT(s->controls[0].accepted, ==, 90e3);
-    v = put_at(s, "controls[0].x_m", 185);
+    v = set_number(s, "controls[0].x_m", 185);
     EXPECT(s->controls[0].x_given, ==, 185);
     EXPECT(s->controls[0].x, ==, 85);
-    v = found(s, "release.x_m", 101);
+    v = find_number(s, "release.x_m", 101);
     assert_true(ceduo_value_set(&v, 102));
     EXPECT(s->release.x.mean, ==, 2);
-    v = put_at(s, "release.vx_m_s.spread", .25);
+    v = set_number(s, "release.vx_m_s.spread", .25);
     EXPECT(s->release.vx.spread, ==, .25);
-    v = put_at(s, "release.vx_m_s.mean", 2);
+    v = set_number(s, "release.vx_m_s.mean", 2);
     EXPECT(s->release.vx.mean, ==, 2);
     assert_true(ceduo_value_find(s, "release.height_m.spread", &v));
-    assert_false(ceduo_value_set(&v, 5)); /* it would reach below 0 */
+    assert_false(ceduo_value_set(&v, 5)); /* its range would reach below 0 */
     EXPECT(s->release.height.spread, ==, 0);
-    v = put_at(s, "slope.segments[0].rn", .25); /* it is for all */
+    v = set_number(s, "slope.segments[0].rn", .25); /* set for all segments */
     for (size_t j = 0; j < 3; j++)
         EXPECT(s->slope.segments[j].rn.mean, ==, .25);
-    v = put_at(s, "simulation.seed", 7);
+    v = set_number(s, "simulation.seed", 7);
     EXPECT(s->simulation.seed, ==, 7);
     assert_false(ceduo_value_set(&v, 7.5) || ceduo_value_set(&v, -1) || ceduo_value_set(&v, NAN) || ceduo_value_set(&v, 1e17));
     assert_false(ceduo_value_find(s, "", &v));
@@ -436,36 +437,35 @@ TEST(paths_of_numbers)
                    "rock.diameter_m.mean.mean|rock[0]|controls_m[0]|slope.csv");
 }
 
-/* Points of the profile are relative to the first, of numbers with a spread each part is its own, and a list of numbers
- * has places. */
+/* Profile points are relative to the first one; a number with a spread has separate parts; a list of numbers has places. */
 TEST(paths_of_numbers_in_lists)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     struct value v;
     read_scene(&file, scenes[4]);
     struct ceduo_scene *s = &file.scene;
-    v = found(s, "slope.vertices_m[1][0]", 130);
+    v = find_number(s, "slope.vertices_m[1][0]", 130);
     assert_true(ceduo_value_set(&v, 140));
     EXPECT(s->slope.x[1], ==, 40);
-    v = found(s, "slope.vertices_m[1][1]", 30);
+    v = find_number(s, "slope.vertices_m[1][1]", 30);
     assert_true(ceduo_value_set(&v, 35));
     EXPECT(s->slope.z[1], ==, -25);
-    v = put_at(s, "rock.axes_m[1].spread", .125);
+    v = set_number(s, "rock.axes_m[1].spread", .125);
     assert_false(ceduo_value_set(&v, -.125) || ceduo_value_set(&v, INFINITY) || ceduo_value_set(&v, NAN));
     EXPECT(ceduo_value_get(&v), ==, .125);
     EXPECT(s->rock.axes[1].mean, ==, .5);
     EXPECT(s->rock.axes[1].spread, ==, .125);
     assert_true(ceduo_value_find(s, "slope.segments[0].rn.spread", &v));
-    assert_false(ceduo_value_set(&v, INFINITY)); /* though what is drawn is cut at 0 and 1 */
+    assert_false(ceduo_value_set(&v, INFINITY)); /* although draws are clamped to 0 and 1 */
     assert_true(ceduo_value_set(&v, 2));
-    v = found(s, "forest[0].stand.cutting.stay_per_ha[1]", 20);
+    v = find_number(s, "forest[0].stand.cutting.stay_per_ha[1]", 20);
     expect_none(s, "slope.vertices_m[4][1]|slope.vertices_m[a][1]|slope.vertices_m.1[1]|slope.vertices_m[1][1].x|"
                    "rock.axes_m[1].kind|forest[0].stand.cutting.stay_per_ha[2]|forest[0].stand.cutting.stay_per_ha[1].x|"
                    "forest[0].stand.trees[oak].per_ha|controls|controls."); /* stems have no names */
 }
 
-/* A word is the index of its choice, -1 where none is said. */
-TEST(words_are_put_by_their_index)
+/* A word is the index of its choice, -1 if it is not given. */
+TEST(words_are_set_by_their_index)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     struct value v;
@@ -480,8 +480,8 @@ TEST(words_are_put_by_their_index)
     assert_int_equal(file.scene.simulation.contact_model, CEDUO_INDEX);
 }
 
-/* Many values are tried on one scene without memory that stays. */
-TEST(puts_take_no_memory)
+/* Trying many values on one scene leaks no memory. */
+TEST(setting_values_leaks_no_memory)
 {
     struct scene_file file = {0};
     struct value per_ha, diameter;
@@ -500,9 +500,9 @@ TEST(puts_take_no_memory)
         LOCAL(ceduo_run, run);
         assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
         assert_int_equal(ceduo_run_extend(run, 10), CEDUO_OK);
-        before = i == 50000 ? mallinfo2().uordblks : before; /* by then the C library keeps its free blocks at hand, */
+        before = i == 50000 ? mallinfo2().uordblks : before; /* from here on the C library caches its free blocks, */
         if (i >= 50000)
-            EXPECT(mallinfo2().uordblks, <=, before + 4096); /* which count as used */
+            EXPECT(mallinfo2().uordblks, <=, before + 4096); /* which it counts as used */
     }
     assert_int_equal(file.arena.bytes, arena);
     ceduo_scene_release(&file);

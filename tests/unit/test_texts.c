@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: brief */
-/* Texts: numbers, words that are near to others, an arena that is full. */
+/* Texts: numbers, similar words, a full arena. */
 #include "local.h"
 #include "table.h"
 
@@ -13,7 +13,7 @@
 #include "base/utf8.h"
 #include "io/node.h"
 
-/* Code points that are shown as they are, by whether a terminal or a line of JSON could take them for more. */
+/* Code points are printed unchanged or escaped, depending on what a terminal or a JSON line could do with them. */
 TEST(no_character_does_anything)
 {
     for (TABLE(row, "unit/texts.txt", "characters")) {
@@ -26,21 +26,21 @@ TEST(no_character_does_anything)
     }
 }
 
-/* Fewest digits with which %e reads back as the same. */
+/* Return the smallest number of digits with which %e reads back equal. */
 static int fewest_digits(double value)
 {
-    char room[64];
+    char buf[64];
     for (int digits = 1;; digits++) {
-        snprintf(room, sizeof room, "%.*e", digits - 1, value);
-        if (strtod(room, NULL) == value)
+        snprintf(buf, sizeof buf, "%.*e", digits - 1, value);
+        if (strtod(buf, NULL) == value)
             return digits;
     }
 }
 
 static void expect_shortest(double value)
 {
-    char room[CEDUO_NUMBER_SIZE];
-    const char *text = ceduo_number_shortest(value, room);
+    char buf[CEDUO_NUMBER_SIZE];
+    const char *text = ceduo_number_shortest(value, buf);
     double back = 0;
     assert_int_equal(ceduo_number_read(text, &back), CEDUO_NUMBER_GOOD);
     if (back != value)
@@ -72,10 +72,10 @@ TEST(numbers_are_short)
             expect_shortest(value);
         expect_shortest(((double)(mixed >> 40) - 8e6 + .5) / (double)(1 + (mixed & 1023)));
     }
-    char room[CEDUO_NUMBER_SIZE];
-    assert_string_equal(ceduo_number_shortest(NAN, room), "null");
-    assert_string_equal(ceduo_number_shortest(-INFINITY, room), "null");
-    assert_string_equal(ceduo_number_shortest(-0., room), "0");
+    char buf[CEDUO_NUMBER_SIZE];
+    assert_string_equal(ceduo_number_shortest(NAN, buf), "null");
+    assert_string_equal(ceduo_number_shortest(-INFINITY, buf), "null");
+    assert_string_equal(ceduo_number_shortest(-0., buf), "0");
 }
 
 TEST(numbers_are_read)
@@ -104,7 +104,7 @@ TEST(numbers_are_read)
 }
 
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wformat-nonliteral" /* a flag that no compiler knows */
+#pragma GCC diagnostic ignored "-Wformat-nonliteral" /* a flag unknown to compilers */
 static void format_any(struct text *text, const char *format, ...)
 {
     va_list args;
@@ -114,7 +114,7 @@ static void format_any(struct text *text, const char *format, ...)
 }
 #pragma GCC diagnostic pop
 
-/* Only %'e, %'f and %'g are numbers of the language. What follows the end of a format is not read: it would be printed. */
+/* Only %'e, %'f and %'g are localised numbers. Text after the format is not read: it would be printed. */
 static void expect_spoken(const char *format, double value, const char *wanted)
 {
     LOCAL_BY(ceduo_text_free) struct text text = {0};
@@ -144,13 +144,13 @@ TEST(no_word_is_near_a_long_one)
     assert_null(ceduo_text_nearest(word, words + 1, 1));
 }
 
-TEST(an_arena_says_that_it_is_full)
+TEST(a_full_arena_reports_it)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     assert_non_null(ceduo_arena_alloc(&arena, 8));
     size_t before = arena.bytes;
     assert_false(arena.failed);
-    assert_null(ceduo_arena_alloc(&arena, SIZE_MAX)); /* rounded up it would be 0 */
+    assert_null(ceduo_arena_alloc(&arena, SIZE_MAX)); /* would round up to 0 */
     assert_true(arena.failed);
     EXPECT(arena.bytes, ==, before);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A profile simplified to a tolerance, and the angles under which a place lies below the release. */
+/* Profiles simplified to a tolerance, and the angles from a place to the release. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 #define POINTS_MAX 400
 
-/* A profile with one ground, or with two that meet at a point. It points into itself: never copy it. */
+/* A profile with one ground, or with two that meet at a point. Contains pointers into itself: never copy it. */
 struct profile {
     struct ceduo_slope slope;
     double x[POINTS_MAX], z[POINTS_MAX];
@@ -50,7 +50,7 @@ static bool has_vertex(const struct ceduo_slope *s, double x)
     return false;
 }
 
-/* ---- simplifying ---- */
+/* ---- simplification ---- */
 
 TEST(all_points_are_used_without_a_tolerance)
 {
@@ -63,8 +63,9 @@ TEST(all_points_are_used_without_a_tolerance)
     ceduo_slope_simplified_free(&to);
 }
 
-/* By hand: the point at 5 m lies .4/sqrt(2) m off the line from 0 to 10 m, that at 15 m 1 m below the one from 10 to 20 m. */
-TEST(a_point_within_the_tolerance_is_left_out)
+/* By hand: the point at 5 m is .4/sqrt(2) m off the line from 0 to 10 m; the one at 15 m is 1 m below the line from 10 to 20
+ * m. */
+TEST(a_point_within_the_tolerance_is_dropped)
 {
     static const double points[][2] = {{0, 20}, {5, 15.4}, {10, 10}, {15, 9}, {20, 10}};
     static const double kept[][2] = {{0, 20}, {10, 10}, {15, 9}, {20, 10}};
@@ -125,15 +126,15 @@ static void profile_rough(struct profile *p, unsigned seed, double tolerance)
         p->segments[j] = ground(.4);
 }
 
-/* Distance of a point from the line through the ends of segment j. */
-static double off_line(const struct ceduo_slope *s, size_t j, double x, double z)
+/* Return the distance of a point from the line through the ends of segment j. */
+static double distance_from_line(const struct ceduo_slope *s, size_t j, double x, double z)
 {
     double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j];
     return fabs((z - s->z[j]) * dx - (x - s->x[j]) * dz) / hypot(dx, dz);
 }
 
-/* On 200 rough profiles: no point is farther than the tolerance, what is kept is a point of the profile or the release, fewer points
- * are left as the tolerance grows, and a profile that is simplified already stays as it is. */
+/* On 200 rough profiles no point is beyond the tolerance, each kept point is of the profile or the release, a larger tolerance
+ * leaves fewer points, and simplifying twice changes nothing. */
 TEST(no_point_is_farther_than_the_tolerance)
 {
     static const double tolerances[] = {.1, .25, .5, 1};
@@ -149,7 +150,7 @@ TEST(no_point_is_farther_than_the_tolerance)
             for (size_t i = 0, j = 0; i < p.slope.vertices; i++) {
                 while (p.x[i] > to.x[j + 1])
                     j++;
-                EXPECT(off_line(&to, j, p.x[i], p.z[i]), <=, tolerances[t] * (1 + 1e-9));
+                EXPECT(distance_from_line(&to, j, p.x[i], p.z[i]), <=, tolerances[t] * (1 + 1e-9));
             }
             for (size_t k = 0, i = 0; k < to.vertices; k++) {
                 while (p.x[i] < to.x[k])
@@ -168,7 +169,7 @@ TEST(no_point_is_farther_than_the_tolerance)
     }
 }
 
-/* With another tolerance a profile is simplified from all its points, not from those that were left. */
+/* With another tolerance a profile is simplified from all its original points. */
 TEST(another_tolerance_begins_with_all_points)
 {
     static struct profile p;
@@ -195,7 +196,7 @@ TEST(another_tolerance_begins_with_all_points)
 
 #define DEGREES (180 / M_PI)
 
-/* A face of 63 degrees to (20, 60), talus to (80, 20), a bench of 12 m, and ground that falls on. */
+/* A face of 63 degrees to (20, 60), talus to (80, 20), a bench of 12 m, and falling ground. */
 static const double below_a_face[][2] = {{0, 100}, {20, 60}, {80, 20}, {92, 18}, {110, 8}};
 
 TEST(angles_below_a_face)
@@ -207,7 +208,7 @@ TEST(angles_below_a_face)
     EXPECT_NEAR(t.shadow * DEGREES, atan(52.0 / 90) * DEGREES, 1e-9);
     EXPECT(t.foot, ==, 20);
     EXPECT(t.bench, ==, 12);
-    t = ceduo_slope_topography(&p.slope, 10, 3, 86); /* from within the face, 3 m up, to the middle of the bench */
+    t = ceduo_slope_topography(&p.slope, 10, 3, 86); /* from within the face, 3 m up, to the centre of the bench */
     EXPECT_NEAR(t.reach * DEGREES, atan(64.0 / 76) * DEGREES, 1e-9);
     EXPECT_NEAR(t.shadow * DEGREES, atan(41.0 / 66) * DEGREES, 1e-9);
     EXPECT(t.bench, ==, 6);
@@ -219,14 +220,14 @@ TEST(without_a_face_there_is_no_shadow)
     struct profile p;
     profile_make(&p, LENGTH(talus), talus, 0);
     assert_true(isnan(ceduo_slope_topography(&p.slope, 0, 0, 100).shadow));
-    profile_make(&p, LENGTH(step), step, 0); /* of 4 m: shorter than a face, though steep */
+    profile_make(&p, LENGTH(step), step, 0); /* 4 m high: shorter than a face, though steep */
     assert_true(isnan(ceduo_slope_topography(&p.slope, 0, 0, 100).shadow));
-    profile_make(&p, LENGTH(below_a_face), below_a_face, 0); /* the release lies below the face */
+    profile_make(&p, LENGTH(below_a_face), below_a_face, 0); /* the release is below the face */
     assert_true(isnan(ceduo_slope_topography(&p.slope, 25, 0, 110).shadow));
 }
 
-/* Two faces: the angle is from the lower one. A ditch counts as flat. */
-TEST(the_last_face_counts)
+/* Two faces: the angle starts at the lower one. A ditch counts as level. */
+TEST(the_lowest_face_counts)
 {
     static const double points[][2] = {{0, 100}, {10, 80}, {60, 50}, {66, 38}, {70, 36}, {78, 37}, {120, 10}};
     struct profile p;
@@ -237,7 +238,7 @@ TEST(the_last_face_counts)
     EXPECT(t.bench, ==, 8); /* 66 to 70 m falls by 27 degrees */
 }
 
-/* ---- what arrives, and how the place lies ---- */
+/* ---- arrivals and topography ---- */
 
 static enum ceduo_terrain terrain(double reach, double shadow, double bench, uint64_t released, uint64_t reached,
                                   uint64_t unfinished)
@@ -267,7 +268,7 @@ TEST(few_rocks_at_a_steep_place_contradict_the_terrain)
         {37, 35, 10, 1000, 4, 0, CEDUO_TERRAIN_BENCH},       {37, NAN, 0, 1000, 4, 6, CEDUO_TERRAIN_AGREES},
         {37, NAN, 0, 0, 0, 0, CEDUO_TERRAIN_AGREES},         {30, 23.9, 0, 1000, 101, 0, CEDUO_TERRAIN_FAR},
         {30, 23.9, 0, 1000, 100, 0, CEDUO_TERRAIN_AGREES},   {30, 24.1, 0, 1000, 900, 0, CEDUO_TERRAIN_AGREES},
-        {60, 3, 0, 1000, 900, 0, CEDUO_TERRAIN_AGREES}, /* right below the face */
+        {60, 3, 0, 1000, 900, 0, CEDUO_TERRAIN_AGREES}, /* just below the face */
         {30, NAN, 0, 1000, 900, 0, CEDUO_TERRAIN_AGREES},    {37, NAN, 0, 200, 1, 0, CEDUO_TERRAIN_CONTRADICTS},
     };
     for (size_t i = 0; i < LENGTH(rows); i++)

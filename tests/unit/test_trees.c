@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Trees of YAML: what is written is read back, compared, walked along a path, and patched into a text. */
+/* YAML trees: written, read back, compared, walked along a path, and patched into a text. */
 #include "local.h"
 #include "table.h"
 
@@ -27,7 +27,7 @@ static const struct node *parsed(struct arena *arena, const char *bytes)
     return parse(arena, &text);
 }
 
-/* What ends a line for some readers, or does something, is escaped. */
+/* Expect line ends and control characters to be escaped. */
 static void expect_printable(const struct text *text)
 {
     uint32_t c = 0;
@@ -38,7 +38,7 @@ static void expect_printable(const struct text *text)
     }
 }
 
-/* Written in its two ways, a tree is read back as it is. */
+/* Write a tree in both ways and read it back. */
 static void expect_back(struct arena *arena, const struct node *node)
 {
     for (int way = 0; way < 2; way++) {
@@ -54,7 +54,7 @@ static void expect_back(struct arena *arena, const struct node *node)
     }
 }
 
-/* In a mapping, in a list and in one within it; with quotes and without. */
+/* In a mapping, in a list and in a nested list; with and without quotes. */
 static void expect_scalar_back(const char *scalar)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
@@ -101,7 +101,7 @@ TEST(trees_are_compared)
         assert_false(ceduo_node_equal(NULL, a));
     }
     const struct node *map = parsed(&arena, "{a: 1, b: [1, 2, 3]}"), *b = ceduo_node_get(map, "b");
-    assert_false(ceduo_node_equal(ceduo_node_renamed(&arena, b, NULL), b)); /* one has a key */
+    assert_false(ceduo_node_equal(ceduo_node_renamed(&arena, b, NULL), b)); /* only one has a key */
     assert_null(ceduo_node_get(NULL, "a"));
     assert_null(ceduo_node_get(b, "a"));
     assert_null(ceduo_node_text(map, "b"));
@@ -122,7 +122,7 @@ TEST(trees_are_compared)
         assert_true(ceduo_node_equal(ceduo_node_inserted(&arena, list, i, nine), parsed(&arena, more[i])));
 }
 
-/* Values put into a text, the rest of it left as it is: NULL where more has changed than values. */
+/* Values are inserted and the rest of the text stays; NULL if more than values changed. */
 TEST(texts_are_patched)
 {
     for (TABLE(row, "unit/texts.txt", "texts that are patched")) {
@@ -138,7 +138,7 @@ TEST(texts_are_patched)
     }
 }
 
-TEST(walks_end_where_there_is_nothing)
+TEST(walks_end_at_a_missing_node)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     const struct node *root = parsed(&arena, "{forest: [{to_m: 1}, {to_m: 2}], rock: {a: 3}}"),

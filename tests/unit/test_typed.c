@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: brief */
-/* What a person types and sees, against what stands in files: centimetres, decimal commas, pairs, ranges, uncertainties. */
+/* Typed and displayed values compared with those in files: centimetres, decimal commas, pairs, ranges, uncertainties. */
 #include "local.h"
 #include "table.h"
 
@@ -86,7 +86,7 @@ TEST(paths_in_words)
     }
 }
 
-static void look_at_label(void *context, const char *path, const struct field *f)
+static void check_label(void *context, const char *path, const struct field *f)
 {
     (void)context;
     if (!f->shown.label || !f->shown.label[0] || strchr(f->shown.label, '_') || !(f->shown.per > 0))
@@ -97,5 +97,5 @@ static void look_at_label(void *context, const char *path, const struct field *f
 
 TEST(every_key_has_a_label)
 {
-    ceduo_schema_visit(ceduo_schema_scene(), "", look_at_label, NULL);
+    ceduo_schema_visit(ceduo_schema_scene(), "", check_label, NULL);
 }

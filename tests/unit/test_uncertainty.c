@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Uncertainty of a known law, what a light depends on, and inputs at the ends of their ranges. */
+/* Uncertainty with a known law, inputs that decide a light, and inputs at the ends of their ranges. */
 #include "expect.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "study/points.h"
 #include "study/sure.h"
 
-/* The uncertainty of a density with a large error: within 1 % of its mean, where a uniform law cut at 0 was 17 and 37 % above. */
+/* Uncertainty of a density with a large error: within 1 % of its mean; a uniform law truncated at 0 was 17 and 37 % above. */
 TEST(gamma_laws_keep_the_mean)
 {
     for (double ratio = .34; ratio <= 1; ratio += .06) {
@@ -26,13 +26,13 @@ TEST(gamma_laws_keep_the_mean)
             squares += x * x / 2000;
         }
         EXPECT_NEAR(sum, 50, .5);
-        EXPECT_NEAR(sqrt(squares - sum * sum), 50 * ratio, .05 * 50 * ratio); /* what is cut off */
+        EXPECT_NEAR(sqrt(squares - sum * sum), 50 * ratio, .05 * 50 * ratio); /* truncated part */
     }
 }
 
-/* ---- what may be true ---- */
+/* ---- plausible cases ---- */
 
-/* Two classes of trees, of 0.2 m, before a rock of 0.8 m: a belt's contacts per metre, one over its ADC, are the trees of a square
+/* Two classes of trees, of 0.2 m, and a rock of 0.8 m: the contacts per metre of a belt, 1/ADC, equal its trees per square
  * metre. */
 static const char wood[] =
     "ceduo: scene/1\nrelease: {vx_m_s: 1}\nrock: {diameter_m: 0.8}\ncontrols: [{x_m: 19, accepted_kJ: 50}]\n"
@@ -53,21 +53,21 @@ static void open_wood(void)
         fail_msg("%s", ceduo_problems_print(&problems));
 }
 
-/* Uniform between lo and hi, at one place. */
-static struct ceduo_input range_of(const char *const *place, double lo, double hi)
+/* Return an input uniform between lo and hi, at one place. */
+static struct ceduo_input make_range(const char *const *place, double lo, double hi)
 {
     return (struct ceduo_input){
         .path = *place, .kind = CEDUO_INPUT_RANGE, .lo = lo, .hi = hi, .places_count = 1, .places = place};
 }
 
-/* Contacts per metre of 1000 to 2000 trees per ha of either class: 0.1·(2 + U + V), a triangular law with p5 at sqrt(0.1), p50 at 1
- * and p95 at 2 - sqrt(0.1) of U + V. Were one known the other's 0.9 were left. What does not act leaves all. */
+/* Contacts per metre of 1000 to 2000 trees per ha in each class: 0.1·(2 + U + V), a triangular law with p5 at sqrt(0.1), p50 at
+ * 1 and p95 at 2 - sqrt(0.1) of U + V. If one were known the other's 0.9 would remain; an input without effect leaves all. */
 TEST(uncertainty_of_a_known_law)
 {
     static const char *const places[] = {"forest[0].stand.trees[0].per_ha", "forest[0].stand.trees[1].per_ha",
                                          "rock.density_kg_m3"};
-    const struct ceduo_input inputs[] = {range_of(&places[2], 2400, 2700), range_of(&places[0], 1000, 2000),
-                                         range_of(&places[1], 1000, 2000)};
+    const struct ceduo_input inputs[] = {make_range(&places[2], 2400, 2700), make_range(&places[0], 1000, 2000),
+                                         make_range(&places[1], 1000, 2000)};
     struct ceduo_uncertainty_result a;
     open_wood();
     const struct ceduo_uncertainty_def def = {
@@ -89,7 +89,7 @@ TEST(uncertainty_of_a_known_law)
     ceduo_scene_release(&file);
 }
 
-/* Of sixty inputs 256 points are too few for their terms: twice as many are taken, and the energy is as the density. */
+/* For sixty inputs 256 points are fewer than the terms: their number is doubled, and energy follows density. */
 TEST(more_points_where_inputs_are_many)
 {
     enum { MANY = 60 };
@@ -97,7 +97,7 @@ TEST(more_points_where_inputs_are_many)
     struct ceduo_input inputs[MANY];
     struct ceduo_uncertainty_result a;
     for (size_t i = 0; i < MANY; i++)
-        inputs[i] = i == 0 ? range_of(&places[0], 2400, 2700) : range_of(&places[1], 11, 13);
+        inputs[i] = i == 0 ? make_range(&places[0], 2400, 2700) : make_range(&places[1], 11, 13);
     open_wood();
     file.scene.controls[0].accepted = NAN;
     const struct ceduo_uncertainty_def def = {.scene = &file.scene,
@@ -116,11 +116,11 @@ TEST(more_points_where_inputs_are_many)
     ceduo_scene_release(&file);
 }
 
-/* Points are given up at the same bound of their work with any number of threads. */
-TEST(too_much_work_is_given_up)
+/* Points are aborted at the same work limit with any number of threads. */
+TEST(too_much_work_is_aborted)
 {
     static const char *const place = "slope.segments[0].rn";
-    const struct ceduo_input input = range_of(&place, .2, .6);
+    const struct ceduo_input input = make_range(&place, .2, .6);
     struct ceduo_uncertainty_result a;
     open_wood();
     struct ceduo_uncertainty_def def = {
@@ -131,7 +131,7 @@ TEST(too_much_work_is_given_up)
         *(ceduo_uncertainty_compute(&def, &a) == CEDUO_OK ? &enough : &few) = def.effort_max;
         ceduo_uncertainty_free(&a);
     }
-    EXPECT(enough, >, 64 * 8); /* each rock touches the ground */
+    EXPECT(enough, >, 64 * 8); /* each rock touches the ground at least once */
     EXPECT(enough, <, 1 << 20);
     def.threads = 2;
     for (int i = 0; i < 20; i++) {
@@ -142,9 +142,9 @@ TEST(too_much_work_is_given_up)
     ceduo_scene_release(&file);
 }
 
-#define LONG 120 /* years, two for each that a point takes */
+#define LONG 120 /* years: two per year of a point */
 
-static struct ceduo_uncertainty_def over_long_years(const struct ceduo_input *input)
+static struct ceduo_uncertainty_def set_long_years(const struct ceduo_input *input)
 {
     return (struct ceduo_uncertainty_def){.scene = &file.scene,
                                           .inputs_count = 1,
@@ -157,17 +157,17 @@ static struct ceduo_uncertainty_def over_long_years(const struct ceduo_input *in
                                           .threads = 1};
 }
 
-/* All rocks arrive in every year, and each of them has too much energy: 120 years fail, though a point has 60. */
-TEST(a_year_of_a_point_stands_for_several)
+/* All rocks arrive in every year, all above the accepted energy: 120 years fail, although a point has 60. */
+TEST(a_year_of_a_point_represents_several)
 {
     static const char *const place = "rocks_per_year";
-    const struct ceduo_input input = range_of(&place, 1, 2);
+    const struct ceduo_input input = make_range(&place, 1, 2);
     struct ceduo_uncertainty_result a;
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
     file.scene.options[0].belts_count = 0;
     file.scene.controls[0].accepted = 1;
-    const struct ceduo_uncertainty_def def = over_long_years(&input);
+    const struct ceduo_uncertainty_def def = set_long_years(&input);
     EXPECT(ceduo_uncertainty_compute(&def, &a), ==, CEDUO_OK);
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(&a, 0, CEDUO_UNCERTAINTY_FAILING, false);
     EXPECT(f->value, ==, LONG);
@@ -177,7 +177,7 @@ TEST(a_year_of_a_point_stands_for_several)
     ceduo_scene_release(&file);
 }
 
-#define TREE_MAX .5 /* m: a tree of 0.2 m becomes as thick by 0.01 a year of what is left */
+#define TREE_MAX .5 /* m: a tree of 0.2 m grows by 0.01 per year of the remaining diameter */
 
 static void read_year(void *context, const struct point *point, const struct control_means *at)
 {
@@ -187,18 +187,18 @@ static void read_year(void *context, const struct point *point, const struct con
     years[point->slot] = log((1 - .2 / TREE_MAX) / left) / .01;
 }
 
-/* Year by year the diameter of the trees says how old they are: slot n is of one of the two years 2n - 1 and 2n. */
-TEST(years_of_a_point_are_of_all_its_years)
+/* The diameter of the trees gives their age: slot n is one of the two years 2n - 1 and 2n. */
+TEST(slots_of_a_point_cover_all_years)
 {
     static const char *const place = "rocks_per_year";
-    const struct ceduo_input input = range_of(&place, 1, 2);
+    const struct ceduo_input input = make_range(&place, 1, 2);
     const double u[2] = {.25, .75};
     double years[1 + CEDUO_UNCERTAINTY_YEARS_MAX] = {0};
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
     struct ceduo_stand *stand = &file.scene.options[0].belts[0].stand;
     stand->growth.trees = (struct ceduo_curve){.dbh_most = TREE_MAX, .dbh_rate = .01, .height_max = 20, .height_rate = .01};
-    const struct ceduo_uncertainty_def def = over_long_years(&input);
+    const struct ceduo_uncertainty_def def = set_long_years(&input);
     const struct points points = {.def = &def, .u = u, .read = read_year, .context = years};
     EXPECT(ceduo_points_years(&def), ==, CEDUO_UNCERTAINTY_YEARS_MAX);
     EXPECT(ceduo_points_run(&points, 0, 1, 0), ==, CEDUO_OK);
@@ -212,8 +212,8 @@ static void read_nothing(void *context, const struct point *point, const struct 
     (void)context, (void)point, (void)at;
 }
 
-/* Effort of all points of a definition, of one option today. */
-static double effort_of(const struct ceduo_uncertainty_def *def)
+/* Return the work for all points of a definition, for one option today. */
+static double measure_effort(const struct ceduo_uncertainty_def *def)
 {
     uint64_t met = 0;
     double *u = malloc(def->points * def->inputs_count * sizeof *u);
@@ -225,23 +225,23 @@ static double effort_of(const struct ceduo_uncertainty_def *def)
                                 &(struct ceduo_work){.rocks = def->points * def->rocks, .contacts = met, .runs = def->points});
 }
 
-/* The uncertainty of a page keeps within 30 times the effort of its scene, or what is always granted, and within the largest bound,
- * whatever stands on the slope; with any number of threads it has the same points. A quick scene has all of them. */
+/* The work for a page's uncertainty stays within 30 times that of its scene, or a guaranteed minimum, and below the upper
+ * limit, for any slope. The points do not depend on the threads. A quick scene has all points. */
 TEST(the_effort_of_a_page_is_bounded)
 {
     static const char *const place = "slope.segments[0].rn";
     static const struct {
         double per_ha, diameter;
         uint64_t own;
-        size_t least, most; /* points */
+        size_t min, max; /* points */
     } cases[] = {{1000, .8, 1000, CEDUO_UNCERTAINTY_POINTS, CEDUO_UNCERTAINTY_POINTS},
                  {1000, .8, 16, CEDUO_UNCERTAINTY_POINTS, CEDUO_UNCERTAINTY_POINTS},
                  {1e5, 1, 400, CEDUO_UNCERTAINTY_MIN, CEDUO_UNCERTAINTY_POINTS - 1},
                  {4e5, 60, 100, 0, 0}};
-    const struct ceduo_input input = range_of(&place, .25, .35);
+    const struct ceduo_input input = make_range(&place, .25, .35);
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
-    for (int k = 0; k < 2; k++) /* they stop no rock */
+    for (int k = 0; k < 2; k++) /* trees stop no rock */
         file.scene.options[0].belts[0].stand.trees[k].volume = 1e-9;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct ceduo_results own;
@@ -261,11 +261,11 @@ TEST(the_effort_of_a_page_is_bounded)
                                                 .brief = true,
                                                 .threads = threads};
             EXPECT(ceduo_effort_bound(&def, &own.work), ==, CEDUO_OK);
-            EXPECT(def.points, >=, cases[i].least);
-            EXPECT(def.points, <=, cases[i].most);
+            EXPECT(def.points, >=, cases[i].min);
+            EXPECT(def.points, <=, cases[i].max);
             if (def.points > 0) {
-                EXPECT(effort_of(&def), <=, CEDUO_EFFORT_MAX);
-                EXPECT(effort_of(&def), <=,
+                EXPECT(measure_effort(&def), <=, CEDUO_EFFORT_MAX);
+                EXPECT(measure_effort(&def), <=,
                        fmax(CEDUO_EFFORT_MIN, CEDUO_EFFORT_TIMES * ceduo_effort_compute(&file.scene, &own.work)));
             }
             assert_true(threads == 1 || def.points == points);
@@ -276,7 +276,7 @@ TEST(the_effort_of_a_page_is_bounded)
     ceduo_scene_release(&file);
 }
 
-/* Where no rock arrives there is no energy, by the index and among stems. */
+/* Without arrivals there is no energy, by the index and among stems. */
 TEST(no_rock_brings_no_energy)
 {
     const enum ceduo_contact_model models[] = {CEDUO_INDEX, CEDUO_STEMS};
@@ -296,9 +296,9 @@ TEST(no_rock_brings_no_energy)
     ceduo_scene_release(&file);
 }
 
-/* A light changes where its limit lies from p5 on and below p95; a second input is named from half of the first one's share on.
- * Where there were too few points nothing is named. */
-TEST(what_a_light_depends_on)
+/* A light changes if its limit lies from p5 on and below p95. A second input is named from half of the first one's share on.
+ * With too few points no input is named. */
+TEST(inputs_that_decide_a_light)
 {
     static const struct {
         double p5, p95, second;
@@ -324,7 +324,7 @@ TEST(what_a_light_depends_on)
     ceduo_scene_release(&file);
 }
 
-/* Each of two words, and each of two rows, has half of the range; its ends are of it. A key may stand in no other. */
+/* Each of two words or rows has half of the range; its ends belong to it. A word may belong to one half only. */
 TEST(words_and_rows_share_the_range)
 {
     static const char *const places[] = {"simulation.rule", "rock.density_kg_m3", "rocks_per_year"};
@@ -342,7 +342,7 @@ TEST(words_and_rows_share_the_range)
                                           .draws = draws,
                                           .places_count = 1,
                                           .places = &places[1]},
-                                         range_of(&places[2], 1, 3)};
+                                         make_range(&places[2], 1, 3)};
     const double u[] = {0, .4999, .5, 1};
     struct input_scene copy;
     open_wood();
@@ -357,23 +357,23 @@ TEST(words_and_rows_share_the_range)
     ceduo_scene_release(&file);
 }
 
-/* A normal input is cut at three standard deviations, its mean is in the middle, and a quarter of what the cut leaves lies below the
- * quartile: Φ(z) = Φ(-3) + (1 - 2Φ(-3))/4 at z = -0.6719. */
-TEST(a_normal_input_at_its_ends)
+/* A normal input is truncated at three standard deviations with its mean in the centre, and a quarter of the rest lies below
+ * the quartile: Φ(z) = Φ(-3) + (1 - 2Φ(-3))/4 at z = -0.6719. */
+TEST(ends_of_a_normal_input)
 {
     const struct ceduo_input input = {.kind = CEDUO_INPUT_NORMAL, .mean = 50, .sd = 4};
     EXPECT_NEAR(ceduo_input_quantile(&input, 0), 38, 1e-9);
     EXPECT_NEAR(ceduo_input_quantile(&input, .5), 50, 1e-9);
     EXPECT_NEAR(ceduo_input_quantile(&input, 1), 62, 1e-9);
-    double z = (ceduo_input_quantile(&input, .25) - 50) / 4, least = erfc(3 / sqrt(2)) / 2;
-    EXPECT_NEAR(erfc(-z / sqrt(2)) / 2, least + (1 - 2 * least) / 4, 1e-12);
+    double z = (ceduo_input_quantile(&input, .25) - 50) / 4, min = erfc(3 / sqrt(2)) / 2;
+    EXPECT_NEAR(erfc(-z / sqrt(2)) / 2, min + (1 - 2 * min) / 4, 1e-12);
 }
 
-/* Stools uncertain above their shoots are as many as these; the next look begins with those of the scene. */
-TEST(stools_are_not_more_than_their_shoots)
+/* Uncertain stools beyond their shoots are limited to the shoots; the next evaluation starts from the scene's values. */
+TEST(stools_are_limited_to_their_shoots)
 {
     static const char *const places[] = {"forest[0].stand.stools.per_ha", "forest[0].stand.shoots[0].per_ha"};
-    const struct ceduo_input inputs[] = {range_of(&places[0], 600, 3000), range_of(&places[1], 500, 2500)};
+    const struct ceduo_input inputs[] = {make_range(&places[0], 600, 3000), make_range(&places[1], 500, 2500)};
     static const double cases[][4] = {
         {1, NAN, 2000, 2000}, {0, NAN, 600, 2000}, {1, 0, 500, 500}, {NAN, 0, 500, 500}, {NAN, NAN, 600, 2000}};
     struct input_scene copy;
@@ -386,7 +386,7 @@ TEST(stools_are_not_more_than_their_shoots)
         EXPECT_NEAR(stand->shoots[0].per_ha, cases[i][3], 1e-9);
     }
     ceduo_inputs_release(&copy);
-    EXPECT(ceduo_inputs_open(&copy, &file.scene, &inputs[1], 1), ==, CEDUO_OK); /* the shoots alone: 500, then 2500 */
+    EXPECT(ceduo_inputs_open(&copy, &file.scene, &inputs[1], 1), ==, CEDUO_OK); /* only the shoots: 500, then 2500 */
     stand = &copy.scene.options[0].belts[0].stand;
     for (int i = 0; i < 2; i++) {
         ceduo_inputs_set(&copy, (double[]){i});

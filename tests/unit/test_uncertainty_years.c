@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Uncertainty over a rotation, beside every point simulated by itself with many more rocks. */
+/* Uncertainty over a rotation, compared with a separate simulation of every point with many more rocks. */
 #include "expect.h"
 
 #include <gsl/gsl_sort.h>
@@ -14,7 +14,7 @@
 
 #define OPTIONS 2
 #define POINTS  64
-#define ROCKS   500 /* in each year of a point by itself */
+#define ROCKS   500 /* per year of a separate point */
 
 static const char scene[] = "ceduo: scene/1\n"
                             "rock: {shape: sphere, diameter_m: 0.68, density_kg_m3: 2600}\n"
@@ -30,13 +30,13 @@ static struct scene_file file;
 static struct scene_inputs inputs;
 static struct ceduo_uncertainty_result answer;
 
-/* Of each point by itself: the mean of the years of each option and of the difference; the years that fail, and the variance of
- * their number by the rocks of both: those of the point by itself, and the few that it has in a year among others. */
+/* Separate points: the mean over the years of each option and of the difference; the failing years, and the variance of their
+ * number by the rocks of both: the separate point's, and the few per year of a joint one. */
 static double means[OPTIONS + 1][POINTS], failing[OPTIONS][POINTS], failing_variance[OPTIONS][POINTS];
 static size_t years_count;
 
-/* A share of n rocks that is near the limit has a variance of limit(1 - limit)/n. As all years of a point by itself have the same rocks,
- * their shares are too high, or too low, together; among others each year has rocks of its own, and is above the limit by chance. */
+/* A share of n rocks near the limit has variance limit(1 - limit)/n. All years of a separate point share their rocks, so their
+ * shares are too high or too low together; in a joint run each year has independent rocks, and exceeds the limit by chance. */
 static double variance_of_failing(const struct ceduo_years *years)
 {
     const double limit = CEDUO_EXCEED_MAX, sd = sqrt(limit * (1 - limit) / ROCKS),
@@ -52,7 +52,7 @@ static double variance_of_failing(const struct ceduo_years *years)
     return pow((hi - lo) / 2 / CEDUO_Z95, 2) + apart;
 }
 
-static void look_at_point(struct input_scene *copy, const double *u, size_t point)
+static void simulate_point(struct input_scene *copy, const double *u, size_t point)
 {
     struct ceduo_results own;
     ceduo_inputs_set(copy, u);
@@ -73,7 +73,7 @@ static void look_at_point(struct input_scene *copy, const double *u, size_t poin
     ceduo_results_release(&own);
 }
 
-static struct ceduo_uncertainty_def def_of(unsigned threads, size_t points)
+static struct ceduo_uncertainty_def make_def(unsigned threads, size_t points)
 {
     return (struct ceduo_uncertainty_def){.scene = &file.scene,
                                           .inputs_count = inputs.n,
@@ -87,7 +87,7 @@ static struct ceduo_uncertainty_def def_of(unsigned threads, size_t points)
 
 static void ask(unsigned threads, size_t points, struct ceduo_uncertainty_result *to)
 {
-    const struct ceduo_uncertainty_def def = def_of(threads, points);
+    const struct ceduo_uncertainty_def def = make_def(threads, points);
     EXPECT(ceduo_uncertainty_compute(&def, to), ==, CEDUO_OK);
 }
 
@@ -100,20 +100,20 @@ static void open_scene(void)
     assert_true(ceduo_inputs_collect(&file, &inputs));
 }
 
-/* Every point by itself. */
-static void look_at_points(void)
+/* Simulate every point separately. */
+static void simulate_points(void)
 {
     double *u = malloc(POINTS * inputs.n * sizeof *u);
     struct input_scene copy;
     EXPECT(ceduo_surface_points(file.scene.simulation.seed, POINTS, inputs.n, u), ==, CEDUO_OK);
     EXPECT(ceduo_inputs_open(&copy, &file.scene, inputs.items, inputs.n), ==, CEDUO_OK);
     for (size_t p = 0; p < POINTS; p++)
-        look_at_point(&copy, u + p * inputs.n, p);
+        simulate_point(&copy, u + p * inputs.n, p);
     ceduo_inputs_release(&copy);
     free(u);
 }
 
-static const struct ceduo_uncertainty_figure *mean_of(size_t i)
+static const struct ceduo_uncertainty_figure *compute_mean(size_t i)
 {
     return ceduo_uncertainty_find_figure(&answer, i < OPTIONS ? i : 1, CEDUO_UNCERTAINTY_MEAN, i == OPTIONS);
 }
@@ -126,8 +126,8 @@ static double mean(const double *values)
     return sum;
 }
 
-/* Variance of a mean over the years by the rocks of both, from the share p: 500 rocks that go through all years, and 32 others in each
- * year. That of a difference is at most the sum of two, as the same rocks meet both forests. */
+/* Return the variance of a mean over years by the rocks of both, at share p: 500 rocks for all years, and 32 others per year.
+ * That of a difference is at most the sum of two, because the same rocks meet both forests. */
 static double variance_of_mean(size_t i)
 {
     if (i == OPTIONS)
@@ -136,12 +136,12 @@ static double variance_of_mean(size_t i)
     return p * (1 - p) * (1. / ROCKS + 1. / (double)(CEDUO_UNCERTAINTY_YEAR_ROCKS * years_count));
 }
 
-/* Of each option, and of one less the other: the mean over all points within three errors; then, less that mean, every point within
- * what the rocks leave open. */
+/* For each option, and the difference of two: the mean over all points agrees within three errors. After subtracting it, every
+ * point agrees within the sampling error. */
 static void expect_means(void)
 {
     for (size_t i = 0; i <= OPTIONS; i++) {
-        const struct ceduo_uncertainty_figure *f = mean_of(i);
+        const struct ceduo_uncertainty_figure *f = compute_mean(i);
         double off = 0, spread = 0, shift = mean(f->fit.values) - mean(means[i]);
         EXPECT_NEAR(shift, 0, 3 * sqrt(variance_of_mean(i)));
         for (size_t p = 0; p < POINTS; p++) {
@@ -149,7 +149,7 @@ static void expect_means(void)
             spread += pow(means[i][p] - mean(means[i]), 2) / POINTS;
         }
         EXPECT(off, <, variance_of_mean(i));
-        if (i != 1) /* of which little is known: five times what the rocks say */
+        if (i != 1) /* known poorly: five times the sampling error */
             EXPECT(off, <, .2 * spread);
     }
 }
@@ -162,8 +162,8 @@ static double percentile(const double *values, double share)
     return ceduo_quantile(sorted, POINTS, share);
 }
 
-/* Years that fail: their mean within two errors of the rocks of both, and the ends of their band within three; then, less that mean,
- * the points within what the rocks leave open, and a tenth of their variance, which a surface need not explain. */
+/* Failing years: their mean agrees within two sampling errors of both, the ends of their band within three. After subtracting
+ * it, the points agree within sampling error and a tenth of their variance, which a surface need not explain. */
 static void expect_failing(void)
 {
     for (size_t i = 0; i < OPTIONS; i++) {
@@ -180,7 +180,7 @@ static void expect_failing(void)
     }
 }
 
-/* The order over the rotation is what most points say. */
+/* The order over the rotation is that of most points. */
 static void expect_order(void)
 {
     double better = 0;
@@ -196,10 +196,10 @@ static void expect_order(void)
     EXPECT(better, <=, o->probability + o->equal + .1);
 }
 
-TEST(over_a_rotation_as_point_by_point)
+TEST(a_rotation_equals_separate_points)
 {
     open_scene();
-    look_at_points();
+    simulate_points();
     ask(2, POINTS, &answer);
     assert_true(answer.rotation);
     expect_means();
@@ -209,7 +209,7 @@ TEST(over_a_rotation_as_point_by_point)
     ceduo_scene_release(&file);
 }
 
-TEST(over_a_rotation_bits_do_not_depend_on_threads)
+TEST(threads_do_not_change_a_rotation)
 {
     open_scene();
     for (unsigned threads = 1; threads <= 3; threads++) {
@@ -227,12 +227,12 @@ TEST(over_a_rotation_bits_do_not_depend_on_threads)
     ceduo_scene_release(&file);
 }
 
-/* One option alone has the bits that it has among others, of which there are no surfaces; also of points that may not grow. */
+/* One option alone has the bits that it has with others, without surfaces for those; also at points without growth. */
 TEST(one_option_alone_over_a_rotation)
 {
     struct ceduo_uncertainty_result alone;
     open_scene();
-    struct ceduo_uncertainty_def def = def_of(2, 16);
+    struct ceduo_uncertainty_def def = make_def(2, 16);
     ask(2, 16, &answer);
     def.alone = true;
     def.option = 1;
@@ -252,8 +252,8 @@ TEST(one_option_alone_over_a_rotation)
     ceduo_scene_release(&file);
 }
 
-/* By the rocks the second option has as many years above the limit more than the first as its own least are above the most of the
- * first, at least, and as its own most are above the least of the first, at most. */
+/* By sampling, the second option has at least its minimum of failing years minus the first's maximum, and at most its maximum
+ * minus the first's minimum. */
 TEST(failing_years_differ_by_both_intervals)
 {
     open_scene();
@@ -270,9 +270,9 @@ TEST(failing_years_differ_by_both_intervals)
     ceduo_scene_release(&file);
 }
 
-/* Without an accepted energy the share that arrives is looked at, and no year is said to fail; by the index no rock is simulated,
- * and there is nothing over a rotation. */
-TEST(what_there_is_over_a_rotation)
+/* Without an accepted energy the share that arrives is evaluated, and no year fails. The index simulates no rock, and has
+ * nothing over a rotation. */
+TEST(figures_over_a_rotation)
 {
     open_scene();
     file.scene.controls[0].accepted = NAN;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Characters, columns and lines. What is right stands in RFC 3629, in Unicode's widths and in UAX 14. */
+/* Characters, columns and lines, according to RFC 3629, Unicode's widths and UAX 14. */
 #include "table.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@ TEST(decoding)
 {
     const char *none =
         "\x80|\xc3|\xc3(|\xc3g|\xe2\x80|\xe2\x80g|"                         /* cut */
-        "\xc0\xaf|\xc1\xbf|\xe0\x80\xaf|\xe0\x9f\xbf|\xf0\x8f\xbf\xbf|"     /* too long a form */
+        "\xc0\xaf|\xc1\xbf|\xe0\x80\xaf|\xe0\x9f\xbf|\xf0\x8f\xbf\xbf|"     /* overlong forms */
         "\xed\xa0\x80|\xed\xbf\xbf|\xf4\x90\x80\x80|\xf5\x80\x80\x80|\xff"; /* surrogates; beyond the last; never */
     for (char bytes[64]; next_word(&none, bytes);) {
         uint32_t code = 0;
@@ -30,7 +30,7 @@ TEST(decoding)
         assert_memory_equal(back, row.at[0], length);
     }
     uint32_t code;
-    assert_int_equal(ceduo_utf8_decode("\xc3\xa0", 1, &code), 0); /* its second byte is not there */
+    assert_int_equal(ceduo_utf8_decode("\xc3\xa0", 1, &code), 0); /* the second byte is missing */
     assert_int_equal(ceduo_utf8_decode("", 0, &code), 0);
     char to[4];
     assert_int_equal(ceduo_utf8_encode(0xd800, to), 0);
@@ -39,10 +39,10 @@ TEST(decoding)
 TEST(columns)
 {
     assert_int_equal(ceduo_utf8_width("citt\xc3\xa0"), 5);
-    assert_int_equal(ceduo_utf8_width("e\xcc\x80"), 1);        /* e and a grave accent on it */
+    assert_int_equal(ceduo_utf8_width("e\xcc\x80"), 1);        /* e with a combining grave accent */
     assert_int_equal(ceduo_utf8_width("\xe6\x9c\xa8"), 2);     /* a Chinese tree */
     assert_int_equal(ceduo_utf8_width("\xf0\x9f\x8c\xb3"), 2); /* a tree */
-    assert_int_equal(ceduo_utf8_width("a\xff\x1b"), 3);        /* a byte that is no character, a control */
+    assert_int_equal(ceduo_utf8_width("a\xff\x1b"), 3);        /* an invalid byte, a control character */
     assert_int_equal(ceduo_utf8_cut("\xe6\x9c\xa8\xe6\x9c\xa8", 3), 3);
     assert_int_equal(ceduo_utf8_cut("e\xcc\x80x", 1), 3);
     const char *text = "a\xc3\xa0\xff";
@@ -53,7 +53,7 @@ TEST(columns)
     assert_int_equal(ceduo_utf8_step("\xc3x"), 1);
 }
 
-static void lines_are(const char *text, size_t width, const char *const *wanted)
+static void expect_lines(const char *text, size_t width, const char *const *wanted)
 {
     for (; *text; wanted++) {
         const char *next;
@@ -69,25 +69,26 @@ static void lines_are(const char *text, size_t width, const char *const *wanted)
 
 TEST(lines)
 {
-    lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 11, (const char *[]){"dell'acqua", "\xc3\xa8 cos\xc3\xac", NULL});
-    lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 12, (const char *[]){"dell'acqua \xc3\xa8", "cos\xc3\xac", NULL});
-    lines_are("one\ntwo", 20, (const char *[]){"one", "two", NULL});
-    lines_are("of 984–995 kJ/m3", 8, (const char *[]){"of", "984–995", "kJ/m3", NULL});
-    lines_are("coppice-with-standards", 10, (const char *[]){"coppice-", "with-", "standards", NULL});
-    lines_are("abcdefgh", 3, (const char *[]){"abc", "def", "gh", NULL});
-    lines_are(" abcdef", 3, (const char *[]){" ab", "cde", "f", NULL}); /* a blank alone is no line */
-    lines_are("\xe6\x9c\xa8\xe6\x9c\xa8", 1, (const char *[]){"\xe6\x9c\xa8", "\xe6\x9c\xa8", NULL}); /* never none at all */
-    lines_are("a\xff\xff"
-              "b c",
-              3, (const char *[]){"a\xff\xff", "b c", NULL});
+    expect_lines("dell'acqua \xc3\xa8 cos\xc3\xac", 11, (const char *[]){"dell'acqua", "\xc3\xa8 cos\xc3\xac", NULL});
+    expect_lines("dell'acqua \xc3\xa8 cos\xc3\xac", 12, (const char *[]){"dell'acqua \xc3\xa8", "cos\xc3\xac", NULL});
+    expect_lines("one\ntwo", 20, (const char *[]){"one", "two", NULL});
+    expect_lines("of 984–995 kJ/m3", 8, (const char *[]){"of", "984–995", "kJ/m3", NULL});
+    expect_lines("coppice-with-standards", 10, (const char *[]){"coppice-", "with-", "standards", NULL});
+    expect_lines("abcdefgh", 3, (const char *[]){"abc", "def", "gh", NULL});
+    expect_lines(" abcdef", 3, (const char *[]){" ab", "cde", "f", NULL}); /* a blank alone makes no line */
+    expect_lines("\xe6\x9c\xa8\xe6\x9c\xa8", 1,
+                 (const char *[]){"\xe6\x9c\xa8", "\xe6\x9c\xa8", NULL}); /* always at least one */
+    expect_lines("a\xff\xff"
+                 "b c",
+                 3, (const char *[]){"a\xff\xff", "b c", NULL});
 
     static char word[WORD + 1];
     memset(word, 'a', WORD);
     const char *next;
-    assert_int_equal(ceduo_utf8_wrap(word, 3, &next), 3); /* longer than where a place to break it is looked for */
+    assert_int_equal(ceduo_utf8_wrap(word, 3, &next), 3); /* longer than the search for a break */
 }
 
-/* Bytes that are no character are nothing that a word is compared by. */
+/* Invalid bytes are ignored in comparisons. */
 TEST(folding)
 {
     char to[16];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values of files: where their ranges end, texts that look like something else, words that are near to others. */
+/* Values in files: ends of their ranges, texts that look like other types, similar words. */
 #include "local.h"
 #include "table.h"
 
@@ -15,34 +15,34 @@
 
 /* ---- ranges ---- */
 
-/* What is told of a scene with path=value; NULL where it has no place for that. To be freed. */
-static char *told_of(const char *scene, const char *path, const char *value)
+/* Return the messages of a scene with path=value; NULL if the scene has no such place. Caller frees. */
+static char *read_problems(const char *scene, const char *path, const char *value)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_TEXT(set);
-    char *told = NULL;
+    char *messages = NULL;
     assert_true(ceduo_scene_load(&file, scene, NULL, 0, &problems));
     ceduo_text_format(&set, "%s=%s", path, value);
     if (ceduo_scene_set(&file, "--set", set.bytes, &problems)) {
         ceduo_scene_bind(&file, &problems);
-        told = strdup(ceduo_problems_print(&problems));
+        messages = strdup(ceduo_problems_print(&problems));
     }
-    return told;
+    return messages;
 }
 
-/* Whether a value lies in the range of what is at `place`; what else does not fit it is another matter. */
+/* True if a value is in the range of `place`; other problems do not count. */
 static bool is_in_range(const char *path, const char *place, const char *value)
 {
-    LOCAL_BYTES char *told = NULL;
-    for (size_t i = 0; !told && i < LENGTH(scenes); i++)
-        told = told_of(scenes[i], path, value);
-    if (!told)
+    LOCAL_BYTES char *messages = NULL;
+    for (size_t i = 0; !messages && i < LENGTH(scenes); i++)
+        messages = read_problems(scenes[i], path, value);
+    if (!messages)
         fail_msg("no scene here holds %s", path);
     static const char *const words[] = {" is below ", " is not above ", " is above ", " is not below ", " the spread reaches "};
     LOCAL_TEXT(start);
     ceduo_text_format(&start, ": %s: ", place);
-    const char *at = strstr(told, start.bytes);
+    const char *at = strstr(messages, start.bytes);
     bool in = true;
     for (size_t i = 0; at && i < LENGTH(words); i++) {
         const char *word = strstr(at, words[i]);
@@ -61,12 +61,12 @@ static void expect_range(const char *path, const char *place, double value, bool
 
 static size_t fields, open_ends;
 
-/* The limits themselves, and the numbers next to them on both sides. */
-static void try_field(void *context, const char *path, const struct field *f)
+/* Try the limits, and their neighbouring numbers on both sides. */
+static void check_field(void *context, const char *path, const struct field *f)
 {
     (void)context;
     bool points = f->type == FIELD_POINTS, listed = f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS || points;
-    if (strstr(path, "uncertainty[]") || strncmp(path, "observed[]", 10) == 0) /* as of the value; test_observed.py */
+    if (strstr(path, "uncertainty[]") || strncmp(path, "observed[]", 10) == 0) /* as for the value; test_observed.py */
         return;
     if (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT && !listed)
         return;
@@ -87,17 +87,17 @@ static void try_field(void *context, const char *path, const struct field *f)
     open_ends += (f->flags & FIELD_UNDER) != 0;
 }
 
-TEST(every_range_ends_where_its_table_says)
+TEST(every_range_ends_at_its_limits)
 {
     fields = open_ends = 0;
-    ceduo_schema_visit(ceduo_schema_scene(), "", try_field, NULL);
+    ceduo_schema_visit(ceduo_schema_scene(), "", check_field, NULL);
     EXPECT(fields, >, 60);
-    EXPECT(open_ends, >, 0); /* the table is walked */
+    EXPECT(open_ends, >, 0); /* the loop covered the table */
 }
 
 /* ---- texts ---- */
 
-/* The types of yaml.org, version 1.1, and the core schema of 1.2: what these match is no text without quotes. */
+/* The types of yaml.org, version 1.1, and the core schema of 1.2: an unquoted word that matches one is not text. */
 static const char *const types[] = {
     "^(~|null|Null|NULL|)$",
     "^(y|Y|yes|Yes|YES|n|N|no|No|NO|true|True|TRUE|false|False|FALSE|on|On|ON|off|Off|OFF)$",
@@ -113,7 +113,7 @@ static const char *const types[] = {
     "^\\.(nan|NaN|NAN)$",
     "^[0-9][0-9][0-9][0-9]-[0-9][0-9]?-[0-9][0-9]?([Tt]|[ \t]|$)",
     "^(<<|=)$",
-    "^[ \t]|[ \t]$", /* blanks at an end are no part of it */
+    "^[ \t]|[ \t]$", /* outer blanks are dropped */
 };
 
 static bool is_another_type(const char *text)
@@ -129,7 +129,7 @@ static bool is_another_type(const char *text)
     return false;
 }
 
-/* A text that was in quotes is written so that it is one for every reader. */
+/* A quoted text is written so that every reader takes it as text. */
 static void expect_text(const char *word)
 {
     LOCAL_TEXT(text);
@@ -159,7 +159,7 @@ TEST(names_stay_texts)
         assert_true(is_another_type(words[i]));
         expect_text(words[i]);
     }
-    /* and whatever else these characters make */
+    /* and all combinations of these characters */
     static const char letters[] = "0179.+-_:xXbBoOeEfFnNaAyY ~";
     uint64_t bits = 1;
     for (int i = 0; i < 200000; i++) {
@@ -171,7 +171,7 @@ TEST(names_stay_texts)
     }
 }
 
-/* Quotes stand only where they are needed: what is a text by itself is written as it was. */
+/* Quotes are used only if needed: plain text stays plain. */
 TEST(plain_names_stay_plain)
 {
     const char *words = "ADS 1|simple-coppice|../stands/ads-1.yaml|25 years|10 m|1st|No wood|yesterday|a|nil|x|0.5 m|1 2|"
@@ -183,7 +183,7 @@ TEST(plain_names_stay_plain)
             ceduo_emit_scalar(&text, word, quoted);
             assert_string_equal(text.bytes, word);
         }
-    const char *const values[] = {"0.5", "-1", "1e3", ".5", "+.5", "true", "false"}; /* without quotes these are no texts */
+    const char *const values[] = {"0.5", "-1", "1e3", ".5", "+.5", "true", "false"}; /* unquoted, these are not texts */
     for (size_t i = 0; i < LENGTH(values); i++) {
         LOCAL_TEXT(text);
         ceduo_emit_scalar(&text, values[i], false);
@@ -191,9 +191,9 @@ TEST(plain_names_stay_plain)
     }
 }
 
-/* ---- near words ---- */
+/* ---- similar words ---- */
 
-TEST(the_nearest_word_is_meant)
+TEST(the_nearest_word_is_proposed)
 {
     for (TABLE(row, "unit/words.txt", "near words")) {
         const char *words[4];

@@ -156,7 +156,7 @@ TEST(an_edit_of_the_contact_model_leaves_no_years)
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     ceduo_live_update(&live, &file, 0, 0, 0);
-    EXPECT(live.verdict.choices[0].over->years, ==, 0);
+    EXPECT(live.verdict.choices[0].last_summary->years, ==, 0);
     follow_to_the_end();
     EXPECT(live.verdict.choices[0].last_summary->years, >, 0);
     EXPECT(live.verdict.choices[0].last_summary->simulated, ==, 0);

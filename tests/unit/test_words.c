@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is said of figures: an interval holds all that lies in it once it is rounded, and an option is called the
- * best only where it is more than three standard errors before the others. */
+/* Sentences about figures: a rounded interval still contains the original, and an option is best only if it leads by more than
+ * three standard errors. */
 #include "local.h"
 #include "table.h"
 
@@ -15,14 +15,14 @@
 
 #define OPTIONS 3
 
-/* So many digits, without an exponent below 1e9; from there on with it, and where more than 6 decimals would be needed. */
+/* n digits, without an exponent below 1e9; with one above, or if more than 6 decimals would be needed. */
 TEST(numbers_are_shown_with_their_digits)
 {
     for (TABLE(row, "unit/texts.txt", "digits"))
         assert_string_equal(SIG(strtod(row.at[0], NULL), atoi(row.at[1])), row.at[2]);
 }
 
-/* Beside its limit a figure lies where it is judged to lie; elsewhere it has the digits that all have. */
+/* A figure near its limit is printed on the side on which it was judged; others have the usual digits. */
 TEST(figures_lie_on_their_side_of_a_limit)
 {
     for (TABLE(row, "unit/words.txt", "beside a limit"))
@@ -31,7 +31,7 @@ TEST(figures_lie_on_their_side_of_a_limit)
         assert_string_equal(PERCENT_VS_LIMIT(strtod(row.at[0], NULL), .1), row.at[1]);
 }
 
-/* The estimate of a share may lie below 0 or above 1; what is shown does not. */
+/* A share's estimate may lie below 0 or above 1; the printed one is clamped. */
 TEST(shares_are_shown_between_0_and_1)
 {
     struct ceduo_share totals[] = {{.value = -.02}, {.value = .37}, {.value = 1.04}};
@@ -41,8 +41,8 @@ TEST(shares_are_shown_between_0_and_1)
         EXPECT(ceduo_uncertainty_share(&figure, g), ==, shown[g]);
 }
 
-/* Of what is judged: kJ with three digits, of 1000 released whole ones. */
-TEST(values_in_uncertainty_have_their_digits)
+/* Judged figures: kJ with three digits, whole numbers per 1000 released. */
+TEST(judged_values_have_their_digits)
 {
     static const struct {
         enum ceduo_uncertainty_kind kind;
@@ -58,8 +58,7 @@ TEST(values_in_uncertainty_have_their_digits)
     }
 }
 
-/* Three options without stems, of which no more is known than what a test says: the figures of each, and the errors of
- * their differences to the first. */
+/* Three options without stems, whose figures and errors of the differences to the first are set by a test. */
 static struct line_scene scene;
 static struct ceduo_option options[OPTIONS];
 static struct ceduo_arrivals arrivals[OPTIONS];
@@ -101,7 +100,7 @@ static struct ceduo_result *assess(void)
     return result;
 }
 
-/* The figures by the other law may be there before those of the scene's own, of all options or of some. */
+/* The figures by the other law may arrive before those of the scene's own, for all options or for some. */
 TEST(the_other_law_is_compared_with_what_is_known)
 {
     struct ceduo_alternative_energy others[OPTIONS];
@@ -130,8 +129,8 @@ TEST(the_other_law_is_compared_with_what_is_known)
     }
 }
 
-/* A clear yes by one law and a clear no by the other: it depends, whichever of the two is the scene's own. Without that the other
- * law's answer stands beside the own one. */
+/* A clear yes under one law and a clear no under the other: it depends, whichever is the scene's own. Otherwise both answers
+ * are shown. */
 TEST(an_answer_depends_where_the_laws_differ)
 {
     static const double yes[] = {.01, 0, .02}, no[] = {.2, .15, .25}, open[] = {.05, .03, .07};
@@ -165,7 +164,7 @@ TEST(an_answer_depends_where_the_laws_differ)
 
 /* ---- intervals ---- */
 
-static void expect_said(double share, double lo, double hi, const char *wanted)
+static void expect_sentence(double share, double lo, double hi, const char *wanted)
 {
     LOCAL_TEXT(text);
     open_scene(50e3);
@@ -178,14 +177,14 @@ static void expect_said(double share, double lo, double hi, const char *wanted)
         fail_msg("'%s' is missing in: %s", wanted, text.bytes);
 }
 
-/* Of 1000, the lower end is rounded down and the upper one up; what is whole stays. */
+/* Per 1000 the lower end is rounded down and the upper one up; whole numbers stay. */
 TEST(an_interval_is_rounded_outward)
 {
     for (TABLE(row, "unit/words.txt", "intervals"))
-        expect_said(atof(row.at[0]), atof(row.at[1]), atof(row.at[2]), row.at[3]);
+        expect_sentence(atof(row.at[0]), atof(row.at[1]), atof(row.at[2]), row.at[3]);
 }
 
-/* ---- the answer in one line ---- */
+/* ---- one-line answer ---- */
 
 /* Of 1000 through the wood of 'a' so many with too much energy, and what may be true of that; of uncertainty NAN: not computed. */
 static void expect_answer(double share, double p5, double p95, size_t width, const char *wanted)
@@ -207,7 +206,7 @@ static void expect_answer(double share, double p5, double p95, size_t width, con
     assert_string_equal(ceduo_text_string(&text), wanted);
 }
 
-/* Where there is less room whole clauses go: what is accepted, then the uncertainty, at last all but the verdict. */
+/* In a narrower page whole clauses are dropped: the accepted energy, then the uncertainty, finally all but the verdict. */
 TEST(an_answer_is_shortened_by_whole_clauses)
 {
     static const char *const shorter[] = {
@@ -226,7 +225,7 @@ TEST(an_answer_is_shortened_by_whole_clauses)
     }
 }
 
-/* 50 of 1000 are accepted: the error of the rocks or what is not known may hold that limit. */
+/* 50 in 1000 are accepted: sampling error or uncertain inputs may include that limit. */
 TEST(an_answer_depends_where_uncertainty_holds_the_limit)
 {
     for (TABLE(row, "unit/words.txt", "answers")) {
@@ -235,7 +234,7 @@ TEST(an_answer_depends_where_uncertainty_holds_the_limit)
     }
 }
 
-/* ---- which is best ---- */
+/* ---- best option ---- */
 
 static void expect_best(const char *wanted)
 {
@@ -247,8 +246,8 @@ static void expect_best(const char *wanted)
     assert_string_equal(ceduo_text_string(&text), wanted);
 }
 
-/* Of 1000 released so many with too much energy, or where it is not said what is too much so many that arrive; the error
- * of their difference to the first. */
+/* Set a share per 1000 with too much energy, or without an accepted energy of arrivals; and the error of its difference to the
+ * first. */
 static void set(size_t option, bool accepted, double share, double se)
 {
     *(accepted ? &arrivals[option].exceed.mean : &arrivals[option].reach.mean) = share;
@@ -257,8 +256,8 @@ static void set(size_t option, bool accepted, double share, double se)
     *d = (struct ceduo_estimate){share - first, se, NAN, NAN};
 }
 
-/* All shares and errors are multiples of the same power of two, so that no rounding is in it. Errors of 3 and 4 to the first
- * make 5 of one to the other: 15 apart is not clear, and the next double is. */
+/* All shares and errors are multiples of one power of two, so that there is no rounding. Errors of 3 and 4 to the first give 5
+ * between the two: a difference of 15 is not clear, and the next double is. */
 TEST(three_standard_errors_apart_is_not_clear)
 {
     const double unit = 1. / 128;
@@ -278,8 +277,8 @@ TEST(three_standard_errors_apart_is_not_clear)
     expect_best("Today no option is clearly better than the others.");
 }
 
-/* Without an accepted energy nothing is said of danger, and energies decide nothing. */
-TEST(what_is_not_accepted_is_not_judged)
+/* Without an accepted energy there is no danger, and energies decide nothing. */
+TEST(without_a_limit_there_is_no_judgement)
 {
     open_scene(NAN);
     arrivals[1].energy_per_released.mean = -1000;
@@ -289,7 +288,7 @@ TEST(what_is_not_accepted_is_not_judged)
     expect_best("Today 'c' lets the fewest rocks through: 250 of 1000.");
 }
 
-/* What is not known of one option is not known of all. */
+/* A figure unknown for one option is unknown for all. */
 TEST(unknown_is_never_best)
 {
     open_scene(50e3);
@@ -353,7 +352,7 @@ static void add_line(void *context, const char *sentence)
     ceduo_text_format(context, "%s\n", sentence);
 }
 
-TEST(why_there_is_no_rotation)
+TEST(reasons_for_no_rotation)
 {
     static struct ceduo_stems trees = {.per_ha = 100, .dbh = .2, .height = 10};
     static char name[] = "old stand";
