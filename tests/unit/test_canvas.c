@@ -106,7 +106,7 @@ TEST(drawings_look_as_they_should)
                                                  charset[0] == 'a'   ? ASCII
                                                  : charset[1] == 'r' ? BRAILLE
                                                                      : BLOCK);
-            struct drawing d = {cells, dots_of(cells), CEDUO_ROLE_TRAJECTORY, 0};
+            struct drawing d = {cells, frame_in_dots(cells), CEDUO_ROLE_TRAJECTORY, 0};
             snprintf(commands, sizeof commands, "%s", row.at[1]);
             for (char *command; (command = strsep(&rest, ";"));)
                 draw(&d, command);
@@ -124,7 +124,7 @@ TEST(true_scale_moves_one_dot_across_for_each_dot_up)
 {
     LOCAL(ceduo_cells, cells) = cells_in(30, 9, BRAILLE);
     struct ceduo_frame frame = {.width = 30, .height = 9};
-    assert_true(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, 150, 0, 20));
+    assert_true(ceduo_frame_true_scale(&frame, find_canvas(BRAILLE), 0, 150, 0, 20));
     double dot = (frame.x1 - frame.x0) / 59;
     assert_float_equal((frame.y1 - frame.y0) / 35, dot, 1e-12);
     /* From the lower left dot on, each further dot to the right is one further up. */
@@ -136,23 +136,23 @@ TEST(true_scale_moves_one_dot_across_for_each_dot_up)
 TEST(true_scale_fits_and_centres)
 {
     struct ceduo_frame frame = {.width = 10, .height = 5}; /* 20 x 20 dots of braille */
-    assert_true(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, 19, 4, 10));
+    assert_true(ceduo_frame_true_scale(&frame, find_canvas(BRAILLE), 0, 19, 4, 10));
     assert_float_equal(frame.x0, 0, 1e-12);
     assert_float_equal(frame.x1, 19, 1e-12);
     assert_float_equal(frame.y0, -2.5, 1e-12);
     assert_float_equal(frame.y1, 16.5, 1e-12);
-    assert_true(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 10, 10, 0, 38)); /* a cliff */
+    assert_true(ceduo_frame_true_scale(&frame, find_canvas(BRAILLE), 10, 10, 0, 38)); /* a cliff */
     assert_float_equal(frame.x0, -9, 1e-12);
     assert_float_equal(frame.x1, 29, 1e-12);
     assert_float_equal(frame.y1, 38, 1e-12);
     struct ceduo_frame before = frame;
-    assert_false(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 1, 1, 2, 2));
-    assert_false(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 1, 0, 0, 2));
-    assert_false(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, (double)NAN, 0, 2));
-    assert_false(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, (double)INFINITY, 0, 2));
+    assert_false(ceduo_frame_true_scale(&frame, find_canvas(BRAILLE), 1, 1, 2, 2));
+    assert_false(ceduo_frame_true_scale(&frame, find_canvas(BRAILLE), 1, 0, 0, 2));
+    assert_false(ceduo_frame_true_scale(&frame, find_canvas(BRAILLE), 0, (double)NAN, 0, 2));
+    assert_false(ceduo_frame_true_scale(&frame, find_canvas(BRAILLE), 0, (double)INFINITY, 0, 2));
     assert_memory_equal(&frame, &before, sizeof frame);
     frame.width = 1;
-    assert_false(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, 1, 0, 1));
+    assert_false(ceduo_frame_true_scale(&frame, find_canvas(BRAILLE), 0, 1, 0, 1));
 }
 
 TEST(frame_cell_is_where_the_point_is_drawn)
@@ -164,15 +164,15 @@ TEST(frame_cell_is_where_the_point_is_drawn)
         for (double x = -3; x <= 7; x += 0.37) {
             int column = -1, row = -1;
             double y = 11 + 0.1 * x;
-            bool inside = ceduo_frame_cell(&frame, kind_of(charset), x, y, &column, &row);
+            bool inside = ceduo_frame_cell(&frame, find_canvas(charset), x, y, &column, &row);
             assert_int_equal(inside, y > 10 - 0.5);
             ceduo_cells_clear(cells);
             draw_point(cells, &frame, CEDUO_ROLE_TRAJECTORY, x, y);
             assert_int_equal(ceduo_cells_role(cells, column, row), CEDUO_ROLE_TRAJECTORY);
         }
         int column, row;
-        assert_false(ceduo_frame_cell(&frame, kind_of(charset), 9, 11, &column, &row));
-        assert_false(ceduo_frame_cell(&frame, kind_of(charset), 0, 8, &column, &row));
-        assert_false(ceduo_frame_cell(&frame, kind_of(charset), (double)NAN, 11, &column, &row));
+        assert_false(ceduo_frame_cell(&frame, find_canvas(charset), 9, 11, &column, &row));
+        assert_false(ceduo_frame_cell(&frame, find_canvas(charset), 0, 8, &column, &row));
+        assert_false(ceduo_frame_cell(&frame, find_canvas(charset), (double)NAN, 11, &column, &row));
     }
 }
