@@ -121,8 +121,8 @@ static bool is_listed(const struct ceduo_figure *figures)
 static void print_figures(FILE *out, const char *prefix, const struct ceduo_figure *f)
 {
     for (; !ceduo_figure_is_end(f); f++) {
-        if (!f->key && !is_listed(f->of))
-            print_figures(out, prefix, f->of);
+        if (!f->key && !is_listed(f->table))
+            print_figures(out, prefix, f->table);
         if (!f->key)
             continue;
         fprintf(out, ".It Va %s%s\n", prefix, f->key);
@@ -133,10 +133,10 @@ static void print_figures(FILE *out, const char *prefix, const struct ceduo_figu
             print_escaped(out, f->null);
         }
         fputs(".\n", out);
-        if (f->of && !is_listed(f->of)) {
+        if (f->table && !is_listed(f->table)) {
             char path[256];
             snprintf(path, sizeof path, "%s%s.", prefix, f->key);
-            print_figures(out, path, f->of);
+            print_figures(out, path, f->table);
         }
     }
 }

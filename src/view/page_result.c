@@ -525,10 +525,9 @@ static void add_assumption(struct ceduo_page *page, const struct ceduo_report *r
     const char *dot = strncmp(note->path, "options[", 8) == 0 ? strchr(note->path, '.') : NULL;
     size_t option = dot ? strtoul(note->path + 8, NULL, 10) : SIZE_MAX;
     ceduo_format_path(dot ? dot + 1 : note->path, &where);
-    if (!places) { /* the value, and the first clause of its source */
-        const char *what = ceduo_text_string(&where);
-        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s%s%.*s", (int)strcspn(what, ","), what, where.length > 0 ? ": " : "",
-                        (int)strcspn(sentence, ";"), sentence);
+    if (!places) { /* the name of the value, or the first clause of the source of a whole scene */
+        const char *what = where.length > 0 ? where.bytes : sentence;
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(what, where.length > 0 ? "," : ";"), what);
         return;
     }
     if (option < scene->options_count)
