@@ -181,7 +181,7 @@ const char *ceduo_plot_histogram(struct ceduo_drawing *d)
         ceduo_text_append(&heads[1].text, _("\xe2\x94\x82 without forest"));
         ceduo_text_append(&heads[1].shorter, _("\xe2\x94\x82 bare"));
         ceduo_text_append(&heads[2].text, _("forest"));
-        ceduo_text_append(&heads[3].text, _("bare"));
+        ceduo_text_append(&heads[3].text, _("without"));
     }
     for (int i = 0; i < h.bins.count; i++) {
         add_bin_row(d->page, &h, i);

@@ -203,7 +203,7 @@ static void label_forest(const struct ceduo_drawing *d)
     if (!d->run || !d->option || !d->option->name)
         return;
     LOCAL_TEXT(name);
-    ceduo_text_format(&name, _("trajectories: %s"), d->wooded ? d->option->name : _("without forest"));
+    ceduo_text_format(&name, _("rocks: %s"), d->wooded ? d->option->name : _("without forest"));
     int end = d->area.left + d->area.width, width = ceduo_canvas_label_width(d->canvas, name.bytes), max = 0, row = 0;
     for (int i = 0; i < NAME_ROWS && i < d->area.height; i++) {
         int column = end; /* first blank column at the right end */

@@ -50,16 +50,16 @@ static const struct content contents[3] = {
       {{N_("p50"), N_("mean")}, CEDUO_ROLE_MEAN, CEDUO_STROKE_PLAIN, false, {OFFSETS(height.p50, mean_energy)}},
       {{NULL, N_("p5")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, {OFFSETS(height.p50, energy.p5)}}}},
     {{N_("underside, m up"), N_("energy, kJ")},
-     {{{N_("bare p95"), N_("bare p95")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, true, {OFFSETS(height.p95, energy.p95)}},
+     {{{N_("without p95"), N_("without p95")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, true, {OFFSETS(height.p95, energy.p95)}},
       {{N_("forest p95"), N_("forest p95")}, CEDUO_ROLE_FOREST, CEDUO_STROKE_DASHES, false, {OFFSETS(height.p95, energy.p95)}},
-      {{N_("bare p50"), N_("bare mean")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OFFSETS(height.p50, mean_energy)}},
+      {{N_("without p50"), N_("without mean")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OFFSETS(height.p50, mean_energy)}},
       {{N_("forest p50"), N_("forest mean")},
        CEDUO_ROLE_FOREST,
        CEDUO_STROKE_PLAIN,
        false,
        {OFFSETS(height.p50, mean_energy)}}}},
     {{N_("underside p95, m"), N_("mean energy, kJ")},
-     {{{N_("bare"), N_("bare")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OFFSETS(height.p95, mean_energy)}},
+     {{{N_("without"), N_("without")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OFFSETS(height.p95, mean_energy)}},
       {{N_("forest"), N_("forest")}, CEDUO_ROLE_FOREST, CEDUO_STROKE_PLAIN, false, {OFFSETS(height.p95, mean_energy)}}}}};
 
 /* Return the columns for names of curves, with a blank on either side. */

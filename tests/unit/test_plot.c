@@ -328,7 +328,7 @@ TEST_WOODED(names_of_curves_follow_their_ends)
         s.wood_envelopes[i].energy.p95 = 20e3;
     }
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 16, ASCII);
-    const char *names[] = {"wood mean", "bare p95", "bare mean", "wood p95"};
+    const char *names[] = {"forest mean", "without p95", "without mean", "forest p95"};
     char *text = ceduo_cells_dump(cells), *at = text;
     for (int i = 0; i < 4; i++) {
         at = strstr(at, names[i]);
@@ -532,7 +532,7 @@ TEST_BARE(titles_name_what_is_shown)
         const char *title, *of_bare;
     } expected[CEDUO_PLOTS] = {
         {NULL, NULL},
-        {"kept: slope, forest, and ways", ", without forest"},
+        {"kept: slope, forest, and trajectories", ", without forest"},
         {"kept: energy of the rocks", ", without forest"},
         {"kept: height of the rocks above the ground", ", without forest"},
         {"kept: energy at path (40 m)", ", without forest"},
