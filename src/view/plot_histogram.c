@@ -179,7 +179,7 @@ const char *ceduo_plot_histogram(struct ceduo_drawing *d)
     if (wooded) {
         struct ceduo_page_cell *heads = d->page->last->cells;
         ceduo_text_append(&heads[1].text, _("\xe2\x94\x82 without forest"));
-        ceduo_text_append(&heads[1].shorter, _("\xe2\x94\x82 bare"));
+        ceduo_text_append(&heads[1].shorter, _("\xe2\x94\x82 without"));
         ceduo_text_append(&heads[2].text, _("forest"));
         ceduo_text_append(&heads[3].text, _("without"));
     }

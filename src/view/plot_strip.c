@@ -198,7 +198,7 @@ static void draw_caption(const struct strip *s, const struct content *content)
     static const struct {
         enum ceduo_role role;
         const char *text;
-    } parts[] = {{CEDUO_ROLE_FOREST, N_("\xe2\x94\x80\xe2\x94\x80 forest")}, {CEDUO_ROLE_BARE, N_("\xc2\xb7\xc2\xb7 bare")}};
+    } parts[] = {{CEDUO_ROLE_FOREST, N_("\xe2\x94\x80\xe2\x94\x80 forest")}, {CEDUO_ROLE_BARE, N_("\xc2\xb7\xc2\xb7 without")}};
     struct ceduo_canvas *canvas = s->d->canvas;
     int row = s->d->area.top, column = s->d->frame.left, end = s->d->area.left + s->d->area.width;
     if (s->d->frame.top == row)
