@@ -87,7 +87,7 @@ def test_accepted_as_given():
         rows = list(csv.DictReader(io.StringIO(good("--batch", "-f", "csv", "-n", 1, path).out)))
         expect_equal([row["accepted_kJ"] for row in rows], [f"{kJ:g}" if kJ < 1e3 else str(kJ) for kJ in given], "CSV")
         text = good(*WHOLE, "-n", 1, path).out
-        expect_equal([float(kJ) for kJ in re.findall(r"(?m)^  At .*, withstands (.*) kJ", text)], given, "the page")
+        expect_equal([float(kJ) for kJ in re.findall(r"(?m)^  At .*, limit (.*) kJ", text)], given, "the page")
         expect_in("\n  arrive with more than 3.3 kJ ", text, "row")
 
 

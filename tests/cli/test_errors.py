@@ -486,7 +486,7 @@ CASES = {
     "--goal requires --find": Words("--batch", "--goal", "adc", "@"),
     "--sure requires --find": Words("--batch", "--sure", 0.9, "@"),
     "--sure: 90 is not a share; write a number between 0 and 1, such as 0.05 for 5 %": Words("--find", "a=1:9", "--goal", "adc", "--sure", 90, "@"),
-    "--sure: over a rotation the mean energy is not known at each point; ...": Words(
+    "--sure: over a rotation the mean energy has no uncertainty; ...": Words(
         "--find", "options[0].forest[0].stand.cutting.rotation_years=10:30", "--goal", "energy=10", "--years", "--sure", 0.9, "--option",
         "coppice with standards", "four-systems", start="--sure: "),
     "--find: the scene has several options; name one with --option": Words("--find", "rock.diameter_m=1:2", "--goal", "adc", "four-systems"),

@@ -414,7 +414,7 @@ def test_read_only_folder():
             expect(done.returncode == DONE and done.stderr == b"", told(done, 0))
             lines = done.stdout.decode().split("\n")
             saved, quit_asks = (Screen("\n".join(lines[i:i + 24]) + "\n", 80, 24) for i in (0, 24))
-            saved.has("Save as", "scene.yaml: Permission denied", "Permission denied. Give another name")
+            saved.has("Save as", "scene.yaml: Permission denied", "Permission denied. Choose another name")
             expect("* fast" in saved.title, saved)
             quit_asks.has("There are unsaved changes")
             expect_equal((f.path / "theirs/scene.yaml").read_text(), FAST)

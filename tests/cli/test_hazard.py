@@ -422,7 +422,7 @@ def test_many():
             wanted = [h["accepted_years"], h["accepted_years_lo"], h["accepted_years_hi"]]
             wanted += [100 * m["rate_left"] for m in h["matrix"]]
             expect_equal(list(row.groups()), [shown(v) for v in wanted])
-        expect_in("and what arrives weak, medium and strong, in % of what does without forest:", page)
+        expect_in("and rocks that arrive by intensity, in % of those without forest:", page)
 
 
 def test_means():

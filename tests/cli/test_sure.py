@@ -182,7 +182,7 @@ def test_over_a_rotation():
         path = f.write("s.yaml", wood())
         r = ceduo("--find", f"{PER_HA.format(0)}=1:100", "--goal", "energy=5", "--years", "--sure", "0.9", path)
         expect_equal((r.status, r.out), (USAGE, ""), r)
-        expect_in("over a rotation the mean energy is not known at each point", r.err)
+        expect_in("over a rotation the mean energy has no uncertainty", r.err)
     mapping = wood(uncertainty=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}])
     mapping["forest"] = [{"from_m": 0, "to_m": 90, "stand": "coppice-with-standards"}]
     found = find(mapping, "exceed=0.5", 0.9, "--years", "-n", 100, path="forest[0].stand.cutting.stay_per_ha[0]", lo=100, hi=103)

@@ -29,7 +29,7 @@ def test_table_order():
     expect_option(text, option)
     expect_in(f"Energy: FAILS. {of_1000('exceed', control['wooded'])} of 1000 arrive with more than 50 kJ",
               re.sub(r"\s+", " ", text), "the energy light's reason")
-    expect_in("withstands 50 kJ*", text, "mark of the assumed accepted energy")
+    expect_in("limit 50 kJ*", text, "mark of the assumed accepted energy")
     expect_width(text)
 
 
@@ -334,7 +334,7 @@ def test_table_changed():
             text = " ".join(good("--batch", "--details", path, "-s", f"controls[0].{change}").out.split())
             expect(any(f"all a guess{said} (control {n}{end}" in text for n in (1, 2) for end in (")", " and ")), change, text)
         for change, star in (("x_m=70", "50 kJ*"), ("accepted_kJ=50", "50 kJ*"), ("accepted_kJ=60", "60 kJ,")):
-            expect_in(f"withstands {star}", good("--batch", "--details", path, "-s", f"controls[0].{change}").out, "its star")
+            expect_in(f"limit {star}", good("--batch", "--details", path, "-s", f"controls[0].{change}").out, "its star")
         twice = good("--batch", "--details", path, "-s", "controls[0].accepted_kJ=60", "-s", "controls[0].x_m=70", "-s", "controls[0].x_m=71")
         expect_in("all a guess; changed since: accepted_kJ, x_m (control 1)", " ".join(twice.out.split()))
         whole = good("--batch", "--details", path, "-s", "controls=[{x_m: 75, accepted_kJ: 60}]").out

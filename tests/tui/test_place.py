@@ -63,7 +63,7 @@ def test_puts_things_there():
     _, screen = chosen(LAND, "Left", "new point")  # at 48 m: 80 - 48 * 50 / 60 = 40
     expect_equal(points(screen), [("0", "80"), ("48", "40"), ("60", "30"), ("100", "0")], "a point at 48 m, on the line")
     _, screen = chosen(LAND, "Down", "new control")
-    expect_equal(sorted(row[1] for row in table(screen, "counted at, m name withstands, kJ speed filmed, m/s")), ["60", "90"],
+    expect_equal(sorted(row[1] for row in table(screen, "counted at, m name limit, kJ speed filmed, m/s")), ["60", "90"],
                  "a control at 60 m")
     _, screen = chosen(LAND.replace("controls: [{x_m: 90, accepted_kJ: 50}]", "controls_m: [90]"), "Down", "new control")
     expect(re.search(r"90 60|60 90", screen.body), "a control at 60 m among controls_m", screen)

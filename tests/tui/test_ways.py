@@ -47,10 +47,10 @@ def test_step_stems():
     """Stepping along a trajectory reports each hit stem, its share of the energy, and where it stops the rock."""
     whole, *pieces = stepped(WOOD, 60)
     total = int(re.search(r"(\d+) stems hit", whole.note).group(1))
-    count = int(re.match(r"rock 1, piece 1 of (\d+):", pieces[0].note).group(1))
+    count = int(re.match(r"rock 1, segment 1 of (\d+):", pieces[0].note).group(1))
     hits, at = [], None
     for i, screen in enumerate(pieces, 1):
-        found = re.match(rf"rock 1, piece {i} of {count}: (flies|rolls) from ([\d.]+) to ([\d.]+) m, ", screen.note)
+        found = re.match(rf"rock 1, segment {i} of {count}: (flies|rolls) from ([\d.]+) to ([\d.]+) m, ", screen.note)
         expect(found, f"piece {i}:", screen.note)
         expect(at is None or float(found.group(2)) == at, f"piece {i} does not begin where the one before ended", screen.note)
         at = float(found.group(3))
