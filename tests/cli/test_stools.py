@@ -164,7 +164,7 @@ def test_unlikely():
              ("shoots a stool are more than 15", coppice(1000, per_ha=15000), coppice(1000, per_ha=15100)),
              ("30.1 m tall: unusual height/diameter ratio (usual 25–150)", trees(height_m=30), trees(height_m=30.1)),
              ("4.9 m tall: unusual height/diameter ratio (usual 25–150)", trees(height_m=5), trees(height_m=4.9)),
-             ("thicker than the thickest", trees(dbh_m=0.35), trees(dbh_m=0.351)))
+             ("thicker than the volume tables", trees(dbh_m=0.35), trees(dbh_m=0.351)))
     with Folder() as f:
         for told, at, beyond in cases:
             expect(not any(told in w for w in warnings_of(f, at)), told, warnings_of(f, at))

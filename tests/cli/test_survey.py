@@ -507,7 +507,7 @@ def test_terminal():
                 expect_in("'x' is not a number", r.out)
                 expect_equal((f.path / "s.yaml").read_text(), before)
                 continue
-            expect_in("its growth and cutting are assumed: check them", r.out)
+            expect_in("growth and cutting are assumed: check them", r.out)
             stands = [json.loads(ceduo("--batch", "-n", 20, "-f", "json", *sets, "s.yaml", cwd=f.path).out)["options"][0]["stands"]
                       for sets in ([], ["-s", "forest[0].stand=stand.yaml"])]
             expect_equal(stands[0], stands[1])

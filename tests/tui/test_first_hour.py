@@ -106,7 +106,7 @@ QUESTIONS = (
     ("my own slope", "", "key n Enter\ntype line\nkey " + "Enter " * 8, "body", r"1 +15 +99 "),
     ("my own stand", "", "key 2 c\n" + PLOT.replace("\n    key 6", ""), "body", r"Stand of belt 1: sample plot"),
     ("a larger rock", "", "key 3 Down Enter\ntype .8\nkey Enter", "now", r"Rock 0\.8 m, 1046 kg"),
-    ("a report, as HTML", "", "wait idle\nkey w\ntype hand\nkey " + "Enter " * 8, "note", r"written: ceduo\.html"),
+    ("a report, as HTML", "", "wait idle\nkey w\ntype report\nkey " + "Enter " * 8, "note", r"written: ceduo\.html"),
 )
 
 

@@ -547,7 +547,7 @@ def test_find_sure():
         said = re.sub(r"\s+", " ", screen.popup + " " + screen.note)
         expect_in(words, said, f"{sure} of 100")
         expect(("= 379: the smallest value" in said) == (sure in ("90", "")), said)
-        expect(("plausible cases" in said) == (sure == "90"), said)
+        expect(("in 90 % of plausible cases: " in said) == (sure == "90"), said)
         expect_equal(screen.row(r"^1 +(60|379)")[1] if "= 379" in said else "379", "379", "the field")
 
 

@@ -65,7 +65,7 @@ def lights(screen, charset):
 
 
 OWN_KEYS = {"slope": ("Enter edit", "a add", "Tab picture"), "stand": ("Enter edit", "p stands", "c sample plot"),
-            "rock": ("Enter edit", "a blocks"), "results": ("Down read on", "w export"),
+            "rock": ("Enter edit", "a blocks"), "results": ("Down scroll", "w export"),
             "compare": ("a add", "y copy", "Enter name"), "rotation": ("Enter edit", "Tab years")}
 
 
@@ -118,7 +118,7 @@ def check_now(screen, scene, charset):
     check_verdict(screen, by_index, charset)
     if "paper-site" in scene:
         expect_equal(bool(re.search(r"^measured kJ +62\.3$", now, re.M)), screen.height > 18, "the rock that was filmed")
-        counted = screen.height == 24 and re.search(r"^! \d remarks? more: view 4$", now, re.M)
+        counted = screen.height == 24 and re.search(r"^! \d more remarks?: view 4$", now, re.M)
         expect(counted or "Eq. 6 gives" in now, "the warning about ADS 2", now)
 
 
