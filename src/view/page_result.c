@@ -253,12 +253,12 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
 {
     static const struct ceduo_page_column columns[] = {
         {N_("stand"), 10, 2, COL_GROW},
-        {NP_("head", "m|from, to, m"), 1, 1, COL_SHRINK | COL_PRIORITY(3)},
+        {NP_("head", "m|from, to, m"), 1, 1, COL_SHRINK | COL_PRIORITY(4)},
         {N_("ADC m|ADC, m"), -5, 1, COL_SHRINK},
         {NULL, -5, 1, COL_SHRINK},
-        {NP_("head", "free run|chance of a free run"), -7, 1, COL_SHRINK | COL_PRIORITY(4)},
-        {NP_("head", "kJ|energy taken, kJ"), -5, 1, COL_SHRINK | COL_PRIORITY(5)},
-        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, COL_SHRINK | COL_PRIORITY(6)}};
+        {NP_("head", "free run|chance of a free run"), -7, 1, COL_SHRINK | COL_PRIORITY(7)},
+        {NP_("head", "kJ|energy taken, kJ"), -5, 1, COL_SHRINK | COL_PRIORITY(8)},
+        {N_("kJ/100 m|taken per 100 m, kJ"), -5, 1, COL_SHRINK | COL_PRIORITY(9)}};
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *head = ceduo_page_head(page);
     ceduo_text_format(&head->text, "<%s m", LOCALIZED(scene->simulation.threshold));

@@ -158,7 +158,7 @@ WIDE = {"slope": ["release", "end of the forest (135 m)", "bounce Rn slide Rt", 
         "results": ["ADC m", "mean kJ", "m/s"],
         "compare": ["C F", "worst"]}
 # With rocks in the wood, and by the index alone.
-MUST_WOOD = {"slope": ["forest", "bare"], "stand": [], "rock": ["rocks among stems stems"],
+MUST_WOOD = {"slope": ["forest", "without"], "stand": [], "rock": ["rocks among stems stems"],
              "results": ["forest"], "compare": ["Of 1000 rocks: > 50 kJ at 135 m", "today mean", "fail", "worst"]}
 WIDE_WOOD = {"slope": ["underside p95, m", "mean energy, kJ"], "stand": [],
              "rock": [], "results": [], "compare": []}
@@ -255,11 +255,11 @@ GOLDEN_STAND = """\
 1   0              67.5           ADS 1
 2   67.5           135            ADS 2
 Stand of belt 1: ADS 1
-system                simple coppice
-species               hop hornbeam
-stools per ha         3688
+system                   simple coppice
+species                  hop hornbeam
+stools per ha            3688
 2.258 shoots per stool
-spacing, m            0.5
+spacing, m               0.5
 Shoots on the stools
 1   8326     6.1      6        0.0107   0
 Single trees: standards, reserves
