@@ -99,7 +99,8 @@ enum ceduo_status ceduo_compare_with_observations(const struct ceduo_calibration
                                                   const ceduo_flag *cancel, struct ceduo_predicted *to);
 
 /* Select parameters to fix so that the observations identify the rest: first those that are not identified, then one of each
- * strongly correlated pair. At least one parameter stays. Return the number of selected parameters. */
+ * strongly correlated pair. If the chains have not converged and none is selected, select the one with the widest range. At least
+ * one parameter stays. Return the number of selected parameters. */
 size_t ceduo_calibration_unidentified(const struct ceduo_calibration *answer, bool selected[CEDUO_CALIBRATION_MAX]);
 
 /* Fit. Return CEDUO_OK, CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or the status of ceduo_scene_check(). The caller

@@ -114,11 +114,8 @@ bool ceduo_fit_has_observations(const struct scene_file *file)
 
 /* ---- fitting ---- */
 
-#define FIRST_STEPS 200 /* steps of each chain; takes some seconds, with the search before them */
-
 enum ceduo_status ceduo_fit_compute(const struct scene_file *file, const struct fit_request *request,
-                                    const struct ceduo_calibration_def *options, struct fit_undetermined *undetermined,
-                                    struct fit *f)
+                                    const struct ceduo_calibration_def *options, struct fit *f)
 {
     *f = (struct fit){.file = *file, .request = *request, .done = true};
     for (size_t i = 0; i < request->n; i++) {
@@ -134,17 +131,10 @@ enum ceduo_status ceduo_fit_compute(const struct scene_file *file, const struct 
     def.parameters_count = request->n;
     def.rocks = request->rocks;
     def.seed = file->scene.simulation.seed;
-    if (request->n > 1) { /* find the values that the observations do not determine */
-        struct ceduo_calibration_def first = def;
-        first.steps_max = FIRST_STEPS;
-        enum ceduo_status status = ceduo_calibrate(&first, &f->answer);
-        if (status != CEDUO_OK)
-            return status;
+    enum ceduo_status status = ceduo_calibrate(&def, &f->answer);
+    if (status == CEDUO_OK && !f->answer.converged)
         f->undetermined.n = ceduo_calibration_unidentified(&f->answer, f->undetermined.values);
-        ceduo_calibration_free(&f->answer);
-    }
-    *undetermined = f->undetermined;
-    return ceduo_calibrate(&def, &f->answer);
+    return status;
 }
 
 void ceduo_fit_free(void *fit)

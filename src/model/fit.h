@@ -19,7 +19,7 @@ struct fit_request {
     uint64_t rocks; /* rocks of each evaluation */
 };
 
-/* Values that the observations do not determine, by a short first fit. A fit without them is quicker. */
+/* Values that the observations do not determine. A fit without them is quicker. */
 struct fit_undetermined {
     size_t n;
     bool values[CEDUO_CALIBRATION_MAX]; /* for each value of the request */
@@ -41,10 +41,9 @@ void ceduo_fit_offer(const struct scene_file *file, struct fit_request *offer);
 /* True if the scene has observations to fit. */
 bool ceduo_fit_has_observations(const struct scene_file *file);
 
-/* Fit with the threads and progress callback of `options`. Set `*undetermined` before the main fit. Always free the fit. */
+/* Fit with the threads and progress callback of `options`. Always free the fit. */
 enum ceduo_status ceduo_fit_compute(const struct scene_file *file, const struct fit_request *request,
-                                    const struct ceduo_calibration_def *options, struct fit_undetermined *undetermined,
-                                    struct fit *fit);
+                                    const struct ceduo_calibration_def *options, struct fit *fit);
 void ceduo_fit_free(void *fit);
 
 /* Fitted values to write into a document: best values, their source, and the draws as uncertainty. */

@@ -182,7 +182,6 @@ struct publisher {
     struct jobs *queue;
     const struct job *job;
     double last;
-    struct fit_undetermined undetermined; /* set by a fit */
 };
 
 static void publish_snapshot(void *context, struct ceduo_snapshot *snapshot)
@@ -329,7 +328,7 @@ static void publish_progress(void *context, const struct ceduo_calibration_state
         return;
     p->last = now;
     struct fit *fit = ceduo_check_memory(calloc(1, sizeof *fit));
-    *fit = (struct fit){.request = p->job->fit, .state = *state, .undetermined = p->undetermined};
+    *fit = (struct fit){.request = p->job->fit, .state = *state};
     publish(p->queue, p->job, fit);
 }
 
@@ -339,7 +338,7 @@ static enum ceduo_status step_fit(struct jobs *q, struct job *job, void **result
     const struct ceduo_calibration_def how = {
         .threads = q->threads, .cancel = &q->cancel, .progress = publish_progress, .context = &publisher};
     struct fit *fit = *result = ceduo_check_memory(calloc(1, sizeof *fit));
-    return ceduo_fit_compute(&job->file, &job->fit, &how, &publisher.undetermined, fit);
+    return ceduo_fit_compute(&job->file, &job->fit, &how, fit);
 }
 
 static const struct kind kinds[JOB_KINDS] = {

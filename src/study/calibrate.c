@@ -267,6 +267,11 @@ static size_t find_collinear(const struct ceduo_calibration *a, const bool *sele
     return worse;
 }
 
+static double relative_width(const struct ceduo_fitted *p)
+{
+    return (p->p97_5 - p->p2_5) / (p->hi - p->lo);
+}
+
 size_t ceduo_calibration_unidentified(const struct ceduo_calibration *a, bool selected[CEDUO_CALIBRATION_MAX])
 {
     size_t max = a->parameters_count - 1, n = 0;
@@ -276,7 +281,13 @@ size_t ceduo_calibration_unidentified(const struct ceduo_calibration *a, bool se
     }
     for (size_t i; (i = find_collinear(a, selected)) != SIZE_MAX; n++) /* the other one of the pair stays */
         selected[i] = true;
-    return n;
+    if (n > 0 || max == 0 || a->converged || a->draws_count == 0)
+        return n;
+    size_t widest = 0; /* the chains have not converged: select the value with the widest range within its bounds */
+    for (size_t i = 1; i <= max; i++)
+        widest = relative_width(&a->parameters[i]) > relative_width(&a->parameters[widest]) ? i : widest;
+    selected[widest] = true;
+    return 1;
 }
 
 #define SHAPE_TOLERANCE 0.1 /* share of the mean axis; rocks whose axes differ by less have one shape; assumed */

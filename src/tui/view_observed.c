@@ -107,7 +107,6 @@ static void append_progress(const struct live *live, struct ceduo_page *page)
 {
     const struct fit *f = live->results.fit; /* NULL: no progress yet */
     const struct ceduo_calibration_state *s = f ? &f->state : NULL;
-    LOCAL_TEXT(undetermined);
     ceduo_page_note(page, _("Fitting. Esc cancels and discards the fit."));
     if (!s || s->evaluations == 0)
         return;
@@ -118,15 +117,6 @@ static void append_progress(const struct live *live, struct ceduo_page *page)
     else
         ceduo_page_para(page, CEDUO_PAGE_NOTE, _("%llu scenes; log-likelihood %.2f."), (unsigned long long)s->evaluations,
                         s->log_likelihood);
-    for (size_t i = 0; f->undetermined.n > 0 && i < f->request.n; i++) /* found by a short first fit */
-        if (f->undetermined.values[i]) {
-            ceduo_text_append(&undetermined, undetermined.length > 0 ? ", " : "");
-            ceduo_calibration_name(&undetermined, f->request.values[i].path);
-        }
-    if (f->undetermined.n > 0)
-        ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                        _("The observations do not determine all %zu values: fix %s. c fits without it, which is faster."),
-                        f->request.n, ceduo_text_string(&undetermined));
     ceduo_page_note(page, _("Best values now:"));
     for (size_t i = 0; i < f->request.n; i++)
         append_best(ceduo_page_add(page, CEDUO_PAGE_ITEM), f->request.values[i].path, s->best[i]);
@@ -143,6 +133,16 @@ static void append_fit(const struct fit *f, struct ceduo_page *page)
     const struct ceduo_calibration_report r = make_report(f);
     ceduo_page_note(page,
                     _("Fitted. Enter applies these values, Esc discards them. The picture shows the scene without them."));
+    LOCAL_TEXT(undetermined);
+    for (size_t i = 0; f->undetermined.n > 0 && i < f->request.n; i++)
+        if (f->undetermined.values[i]) {
+            ceduo_text_append(&undetermined, undetermined.length > 0 ? ", " : "");
+            ceduo_calibration_name(&undetermined, f->request.values[i].path);
+        }
+    if (f->undetermined.n > 0)
+        ceduo_page_para(page, CEDUO_PAGE_NOTE,
+                        _("The observations do not determine all %zu values: fix %s. c fits without it, which is faster."),
+                        f->request.n, ceduo_text_string(&undetermined));
     for (size_t i = 0; i < f->request.n; i++) {
         const struct ceduo_fitted *fitted = &f->answer.parameters[i];
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
@@ -328,12 +328,12 @@ static bool submit_fit(struct app *app, struct popup *p)
     return selected.n > 0;
 }
 
-/* True if the running fit determines the value; set its bounds from the fit. */
-static bool is_determined(const struct fit *running, struct fit_value *value)
+/* True if the last fit determines the value; set its bounds from the fit. */
+static bool is_determined(const struct fit *last, struct fit_value *value)
 {
-    for (size_t i = 0; i < running->request.n; i++)
-        if (strcmp(running->request.values[i].path, value->path) == 0 && !running->undetermined.values[i]) {
-            *value = running->request.values[i];
+    for (size_t i = 0; i < last->request.n; i++)
+        if (strcmp(last->request.values[i].path, value->path) == 0 && !last->undetermined.values[i]) {
+            *value = last->request.values[i];
             return true;
         }
     return false;
@@ -344,7 +344,7 @@ _Static_assert(CEDUO_CALIBRATION_MAX <= POPUP_FIELDS_MAX, "one popup asks for th
 static void ask_fit_values(struct app *app)
 {
     struct fit_request request;
-    const struct fit *running = app->live.fitting ? app->live.results.fit : NULL;
+    const struct fit *last = app->live.results.fit; /* running or finished; may be NULL */
     ceduo_fit_offer(&app->document.file, &request);
     struct popup *p = ceduo_popup_fields(app, _("Values to fit to the observations"), "", submit_fit);
     ceduo_text_format(&p->text,
@@ -362,7 +362,7 @@ static void ask_fit_values(struct app *app)
         LOCAL_TEXT(label);
         LOCAL_TEXT(bounds);
         ceduo_calibration_name(&label, request.values[i].path);
-        if (running && running->undetermined.n > 0 ? is_determined(running, &request.values[i]) : i < FILLED)
+        if (last && last->undetermined.n > 0 ? is_determined(last, &request.values[i]) : i < FILLED)
             append_bounds(&bounds, &request.values[i]);
         ceduo_popup_add_field(p, label.bytes, ceduo_text_string(&bounds));
     }

@@ -173,22 +173,13 @@ static void add_unconverged(struct ceduo_page *page, const struct ceduo_calibrat
 {
     const struct ceduo_calibration *a = r->answer;
     bool unidentified[CEDUO_CALIBRATION_MAX];
-    size_t widest = 0;
-    double max_width = -1;
     LOCAL_TEXT(all);
     LOCAL_TEXT(fixed);
     if (a->parameters_count == 1 || a->draws_count == 0) {
         ceduo_page_warn(page, _("The chains have not converged, so the ranges are rough: fit fewer values, or observe more."));
         return;
     }
-    for (size_t i = 0; i < a->parameters_count; i++) {
-        const struct ceduo_fitted *f = &a->parameters[i];
-        double width = (f->p97_5 - f->p2_5) / (f->hi - f->lo);
-        widest = width > max_width ? i : widest;
-        max_width = fmax(max_width, width);
-    }
-    if (ceduo_calibration_unidentified(a, unidentified) == 0)
-        unidentified[widest] = true;
+    ceduo_calibration_unidentified(a, unidentified);
     for (size_t i = 0; i < a->parameters_count; i++) {
         LOCAL_TEXT(name);
         ceduo_calibration_name(&name, r->inputs[i].path);

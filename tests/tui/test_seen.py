@@ -316,14 +316,14 @@ def test_grounds():
 
 
 def test_too_many_values():
-    """Four values of the ground and 50 stops: during the fit it soon reports which to fix, as Rn and Rt are correlated; c asks
+    """Four values of the ground and 50 stops: the fit reports which to fix, as Rn and Rt are correlated; c asks
     again without it"""
     with Place() as place, Tmux(place) as t:
         t.start("quarry")
         t.keys("8", "c")
         t.sees("Values to fit")
         t.keys("Enter", "Enter", "Enter", "Enter")
-        told = " ".join(line[:50].strip() for line in t.sees("does not hold 4").split("\n"))
+        told = " ".join(line[:50].strip() for line in t.sees("not determine all 4").split("\n"))
         named = re.search(r"do not determine all 4 values: fix (.*?)\. c fits without it", told)
         expect(named and re.search("bounce Rn|slide Rt", named.group(1)), told)
         t.keys("c")

@@ -178,7 +178,9 @@ TEST(what_is_to_be_left_as_it_is)
         double width[3], together[3];
         size_t draws;
         bool loose[3];
-    } cases[] = {{{true, true, true}, {.1, .2, .3}, {.9, 0, -.9}, 9, {false, false, false}},
+    } cases[] = {{{true, true, true}, {.1, .3, .2}, {.9, 0, -.9}, 9, {false, true, false}}, /* not converged: the widest */
+                 {{true, true, true}, {.1, .3, .2}, {.91, 0, 0}, 9, {false, true, false}},
+                 {{true, true, true}, {.1, .2, .3}, {.9, 0, -.9}, 9, {false, false, false}},
                  {{true, true, true}, {.1, .2, .3}, {.91, 0, 0}, 9, {false, true, false}},
                  {{true, true, true}, {.2, .1, .3}, {-.91, 0, 0}, 9, {true, false, false}},
                  {{true, true, true}, {.1, .3, .2}, {.92, 0, -.99}, 9, {false, true, false}},
@@ -188,7 +190,7 @@ TEST(what_is_to_be_left_as_it_is)
                  {{false, false, false}, {.9, .9, .9}, {0, 0, 0}, 9, {true, true, false}},
                  {{false, false, false}, {NAN, NAN, NAN}, {NAN, NAN, NAN}, 0, {false, false, false}}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct ceduo_calibration a = {.parameters_count = 3, .draws_count = cases[i].draws};
+        struct ceduo_calibration a = {.parameters_count = 3, .draws_count = cases[i].draws, .converged = i > 1};
         bool loose[CEDUO_CALIBRATION_MAX];
         size_t n = 0;
         for (size_t k = 0; k < 3; k++) {

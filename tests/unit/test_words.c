@@ -366,8 +366,7 @@ TEST(reasons_for_no_rotation)
     options[2].belts = &belts[1];
     options[1].belts_count = options[2].belts_count = 1;
     ceduo_words_windows(&scene.scene, add_line, &text);
-    assert_string_equal(ceduo_text_string(&text),
-                        "'a' does not change: no stem stands in it.\n"
-                        "'b' does not change: stand 'old stand' has no growth and cutting data.\n"
-                        "'c' grows and is never cut.\n");
+    assert_string_equal(ceduo_text_string(&text), "'a' does not change: no stem stands in it.\n"
+                                                  "'b' does not change: stand 'old stand' has no growth and cutting data.\n"
+                                                  "'c' grows and is never cut.\n");
 }
