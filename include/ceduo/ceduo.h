@@ -5,7 +5,7 @@
 /* All of libceduo: scenes and their files, rockfall on a slope, and the energy that a coppice absorbs. C++ programs include this
  * header, not its parts.
  *
- * Calls may run concurrently. Nobody may modify a scene while a call reads it. One thread at a time uses a pool, run, surface or
+ * Calls may run concurrently. A scene must not change while a call reads it. One thread at a time uses a pool, run, surface or
  * observer. The only global state is the error handler of GSL, whose default ends the program. During a call, errors of GSL in
  * its threads become the status of the call; errors in other threads go to the handler that was set before. The call restores
  * that handler. Do not set one during a call. */

@@ -32,7 +32,7 @@ static void append_names(const struct each *e, bool set, struct text *text)
         ceduo_text_append(text, _("none"));
 }
 
-/* Print the names of the columns that are set, and of those that are copied. */
+/* Print the names of the columns that are set, and of the copied columns. */
 static void print_columns(const struct each *e)
 {
     LOCAL_TEXT(set);

@@ -6,8 +6,8 @@
 #include "base/must.h"
 #include "base/utf8.h"
 
-#define LINE_MAX    100  /* columns of the source line that are shown */
-#define MESSAGE_MAX 1000 /* bytes: known keys take some hundred */
+#define LINE_MAX    100  /* columns shown of a source line */
+#define MESSAGE_MAX 1000 /* bytes; a list of keys takes some hundred */
 #define TAIL        200
 #define COUNTED     1000
 
@@ -24,7 +24,7 @@ bool ceduo_source_next(const struct source *s, size_t *at, size_t *from, size_t 
     return true;
 }
 
-/* Line number `line`, from 1; false where the source has fewer. */
+/* Find line `line`, from 1. Return false if the source has fewer lines. */
 static bool find_line(const struct source *s, size_t line, size_t *from, size_t *to)
 {
     size_t at = 0, i = 0;
@@ -46,7 +46,7 @@ size_t ceduo_source_byte(const struct source *s, size_t line, size_t column)
     return at;
 }
 
-/* A part of the line, and a caret below the column where that is in it; of a foreign source only what begins it. */
+/* Print a part of the line, with a caret below the column if it is within. Print only the start of a foreign line. */
 static void print_line(struct text *out, const struct source *s, size_t line, size_t column)
 {
     size_t from, to, max = s->foreign ? CEDUO_FOREIGN_MAX : LINE_MAX;
@@ -80,7 +80,7 @@ static void print_line(struct text *out, const struct source *s, size_t line, si
         ceduo_text_append(out, ceduo_text_string(&caret));
 }
 
-/* The words of a format, which has no %%, with dots in place of the values. */
+/* Print the words of a format (without %%), with dots for the values. */
 static void print_words(struct text *out, const char *format)
 {
     for (; *format; format++) {
@@ -89,7 +89,7 @@ static void print_words(struct text *out, const char *format)
     }
 }
 
-/* A message may quote a word of a megabyte: its middle is left out, so that the remedy at its end stays. */
+/* Print a message. Cut a very long quotation in the middle, so that the remedy at the end stays. */
 static void print_cut(struct text *out, const char *string)
 {
     size_t n = strlen(string), head = MESSAGE_MAX - TAIL, tail = n - TAIL;
@@ -106,14 +106,14 @@ static void print_cut(struct text *out, const char *string)
     ceduo_text_append_escaped_n(out, string + tail, n - tail);
 }
 
-/* The same for all items of a list and whatever numbers the words hold. */
-static uint64_t kind_of(const struct source *source, const char *path, const char *words)
+/* Hash the kind of a problem. Indices of items and numbers in the words do not count. */
+static uint64_t hash_kind(const struct source *source, const char *path, const char *words)
 {
     uint64_t hash = source ? hash_bytes(source->name, strlen(source->name)) : HASH_START;
     for (const char *p = path; *p; p++) {
         bool inside = *p == '[';
         hash_count(&hash, (unsigned char)*p);
-        while (inside && p[1] && p[1] != ']') /* one that is never closed may stand in the key of a foreign file */
+        while (inside && p[1] && p[1] != ']') /* the key of a foreign file may have no closing bracket */
             p++;
     }
     for (const char *p = words; *p; p++)
@@ -127,7 +127,7 @@ void ceduo_problem_line(const struct problem *p, struct text *text)
     ceduo_text_format(text, "%s%s%s%s%s", p->place, p->place[0] ? ": " : "", p->path, p->path[0] ? ": " : "", p->message);
 }
 
-/* Note that a message was reported; false if it was before: a file used in two places has its faults once. */
+/* Record a message. Return false if it was recorded before: a file used twice reports its errors once. */
 static bool is_new(struct problems *problems, const struct problem *p)
 {
     LOCAL_TEXT(line);
@@ -140,7 +140,7 @@ static bool is_new(struct problems *problems, const struct problem *p)
     return true;
 }
 
-/* Adds a message, once. Beyond a number, whether it is known matters no more: a million of them take no time. */
+/* Add a message once. After COUNTED messages duplicates are no longer searched, so that a million messages are fast. */
 void ceduo_problem_v(struct problems *problems, struct problem_place place, const char *format, va_list args)
 {
     const struct source *source = place.source;
@@ -171,7 +171,7 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
     struct problem p = {.place = ceduo_text_string(&where),
                         .path = ceduo_text_string(&path),
                         .message = ceduo_text_string(&message),
-                        .kind = kind_of(source, place.path ? place.path : "", ceduo_text_string(&words))};
+                        .kind = hash_kind(source, place.path ? place.path : "", ceduo_text_string(&words))};
     if (!is_new(problems, &p))
         return;
     list->count++;
@@ -182,7 +182,7 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
         if (known->more < CEDUO_PROBLEMS_LINES)
             known->lines[known->more] = place.line;
         known->more++;
-    } else if (k < CEDUO_PROBLEMS_MAX || place.first) { /* of a million only these look for their line */
+    } else if (k < CEDUO_PROBLEMS_MAX || place.first) { /* only listed problems search their line */
         if (source && place.line > 0)
             print_line(&hint, source, place.line, place.column);
         const char **const strings[] = {&p.place, &p.path, &p.message, &p.hint};

@@ -166,7 +166,7 @@ static struct ceduo_segment make_segment(const struct ceduo_material *row, const
     return segment;
 }
 
-/* Add a vertex where the ground changes within a segment. It lies on the line, so the shape is unchanged. */
+/* Add a vertex if the ground changes within a segment. It lies on the line, so the shape is unchanged. */
 static void split_at(struct ceduo_slope *s, double x)
 {
     size_t j = ceduo_slope_segment(s, x);

@@ -41,7 +41,7 @@ struct size ceduo_rock_size(const struct sizes *sizes, uint64_t rock);
 /* Scale a rock to a volume, with the same shape and density. */
 void ceduo_rock_resize(struct ceduo_rock *rock, double volume);
 
-/* A control, where the first passage of a rock along +x is recorded. */
+/* A control. It records the first passage of a rock along +x. */
 struct mark {
     double x, z;    /* m; z: the ground */
     size_t control; /* index in the scene */
