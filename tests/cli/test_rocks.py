@@ -151,8 +151,7 @@ def test_stopped_at_the_release():
         stopped = run["options"][0]["ends"]["stopped_by_stems"]
         expect(stopped > 0.01, run["options"][0]["ends"])
         sentence = said(run, "within 10 m of the release")
-        expect_equal(sentence, [f"current: of 1000 rocks simulated stems stop {1000 * stopped:.0f} within 10 m of the release, "
-                                "before they have any speed."], "all that are stopped")
+        expect_equal(sentence, [f"current: stems stop {1000 * stopped:.0f} of 1000 rocks within 10 m of the release, where they are slow."], "all that are stopped")
         away = result(far)
         expect(away["options"][0]["ends"]["stopped_by_stems"] > 0, away["options"][0]["ends"])
         expect_equal(said(away, "within 10 m of the release"), [], "the forest begins 11 m below")
@@ -170,7 +169,7 @@ def test_uphill():
         run = result(short)
         left = round(200 * run["options"][0]["ends"]["left_slope"])
         expect(60 < left < 140, f"{left} of 200 leave")  # rocks thrown uphill
-        expect(said(run, f"Of 200 rocks simulated {left} bounce back over the upper end of the profile"), run["warnings"])
+        expect(said(run, f"Of 200 rocks {left} bounce over the upper end of the profile"), run["warnings"])
         expect_equal(said(result(long_), "upper end"), [], "a profile that begins farther up")
 
 
