@@ -445,7 +445,7 @@ def test_survey_in_italian():
     page = " ".join(walk.outputs[3].split())
     for words in ("A confronto, fino a 120 m", "con bosco", "Toscana chiede ≥ 60 matricine per ettaro", "rispettato"):
         expect_in(words, page)
-    expect(re.search(r"com'\u00e8 ora: L'esito della verifica 'energia' dipende da .*rugosit\u00e0", " ".join(walk.outputs[4].split())),
+    expect(re.search(r"com'\u00e8 ora: La verifica di \W?energia\W? dipende da .*rugosit\u00e0", " ".join(walk.outputs[4].split())),
            walk.outputs[4])
     html = walk.read("pagina.html")
     expect_in('lang="it"', html[:200])
@@ -479,7 +479,7 @@ def test_survey_on_the_italian_screen():
         expect(done.returncode == 0 and understood(done.stderr), done.stderr, done.returncode)
         expect_in("popolamento preso dal rilievo", done.stdout)
         expect(re.search(r"ceppaie per ha +597", done.stdout), done.stdout)
-        expect(re.search(r"15\u2013115 +six-plots +13,9 \u2714", done.stdout), "saved", done.stdout)
+        expect(re.search(r"six-plots\S* +15\u2013115 +13,9 +\u2714", done.stdout), "saved", done.stdout)
 
 
 def test_reserves():
@@ -545,7 +545,7 @@ def test_hazard():
     for row in ("without forest 22 (21–24) ", "simple coppice 55 (51–60) ", "simple coppice, just cut 25 (23–27) "):
         expect_in(row, page)
     bare, coppice = (re.search(rf"{name} .*?(\d+) \(\d+–\d+\)$", walk.outputs[0], re.M)[1]
-                     for name in ("    without forest", "    simple coppice"))
+                     for name in ("  without forest", "  simple coppice"))
     expect(385 < int(bare) < 400 and 290 < int(coppice) < 300, "390 to some 300 kJ", bare, coppice)
     expect_in("How often, at 135 m, road", walk.outputs[0])
     expect_in('"rate_left"', walk.read("hazard.json"))
@@ -557,7 +557,7 @@ def test_fit():
     for name, truth in (("roughness, m", 0.12), ("friction", 0.35)):
         low, high = map(float, re.search("^  " + name + r" .* (0\.\d+)–(0\.\d+)$", walk.outputs[0], re.M).groups())
         expect(low < truth < high, name, low, high)
-    expect_in("the observations do not tell them apart", walk.outputs[0])
+    expect_in("the observations do not tell them apart", " ".join(walk.outputs[0].split()))
     expect_in("The model reproduces all fitted observations", walk.outputs[0])
     expect_in("kind: calibrated", walk.read("fitted.yaml"))
     expect_in("How sure is it?", walk.outputs[1])

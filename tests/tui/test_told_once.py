@@ -39,7 +39,7 @@ def test_remarks():
     """A warning that does not fit the column is counted there, and is whole in view 4"""
     with Place() as place:
         found, page = place.play("wait idle\ndump\nkey 4\nresize 200 50\nkey End\ndump", PAPER)
-    left = re.search(r"^! (\d+) remarks? more: view 4$", found.now, re.M)
+    left = re.search(r"^! (\d+) more remarks?: view 4$", found.now, re.M)
     expect(left, "a number of remarks in", found.now)
     one_line = re.sub(r"\s+", " ", page.body)
     whole = re.sub(r"\s+", " ", page.now).split("! ")[1:]
