@@ -85,7 +85,7 @@ def test_scripts_look_first():
             "wait idle\ndump\nkey 7\nwait idle\ndump\nkey 3\nfind rock.density_kg_m3\nset 4000\nwait idle\ndump\nkey u\nwait idle\ndump",
             "unsure.yaml")
     uncertainty = [re.findall(r"90 % range +(\S+)$", s.now, re.M) for s in (before, first, edited, undone)]
-    expect_equal([len(d) for d in doubt], [0, 1, 1, 1])
+    expect_equal([len(d) for d in uncertainty], [0, 1, 1, 1])
     expect(uncertainty[2] != uncertainty[1], "a heavier rock has another uncertainty", uncertainty)
 
 
