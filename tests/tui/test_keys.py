@@ -308,7 +308,7 @@ def test_paste_of_signals():
     with Place() as place:
         program = Pty(place, "xterm")
         os.write(program.fd, b"\x1b[200~a\x03q\x1a\x1cq\x1b[201~")
-        program.writes(b"nowhere")
+        program.writes(b"nothing pasted")
         os.write(program.fd, b"3G\r\x15\x1b[200~a\x03b\x1ac\x1b[201~")
         program.writes(b"abc")
         os.write(program.fd, b"\x03")  # leaves the field

@@ -825,7 +825,7 @@ def test_refining_ends():
         t.start("paper-site")
         screen = until("figures that are refined no more", lambda: (lambda s: "finished, " in s and s)(t.screen()))
         expect(re.search(r"finished, \d{5,} rocks", screen), screen)
-        expect(re.search(r"arrive +\d+±\d+ +\d+", screen) and re.search(r"energy [\d.]+ % > 5 +✘", screen), screen)
+        expect(re.search(r"arrive +\d+±\d+ +\d+", screen) and re.search(r"energy % +[\d.]+ +≤ 5 ✘", screen), screen)
 
 
 def test_live_wood():
@@ -850,9 +850,9 @@ def test_live_wood():
         t.keys("Enter", "Enter")
         t.sees("not at all", "index")
         t.keys("Home", "Enter")
-        t.sees("rocks among stems    index", "energy: not judged")
+        t.sees("rocks among stems    index", "energy %        -        ?")
         t.keys("u")
-        t.sees("rocks among stems    stems", "undone: ", lacks=("energy: not judged",))
+        t.sees("rocks among stems    stems", "undone: ", lacks=("energy %        -        ?",))
         t.keys("s", "q")
 
 
