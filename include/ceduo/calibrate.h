@@ -66,7 +66,7 @@ struct ceduo_fitted {
 struct ceduo_predicted {
     size_t scene, observation;
     struct ceduo_observation_fit at_best;
-    double p_value;          /* share of predicted samples that deviate at least as much as the observation */
+    double p_value;          /* share of predicted samples with a deviation of at least the observed one */
     double observed, lo, hi; /* observed mean or count; its predicted 95 % interval */
     bool inside;
     double one_lo, one_hi; /* predicted 95 % interval of single rocks; NaN: not computed */

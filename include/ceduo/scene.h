@@ -64,7 +64,7 @@ struct ceduo_belt {
     bool assumed;                /* some value of the stand is an assumption */
     bool changed;                /* numbers of a stand from a file were changed, and it has no name of its own */
     bool felled;                 /* in a year of ceduo_years: this stand was left by a cut in this year */
-    double cut_year;             /* a year in which it is cut, as in ceduo_first_cut(); NaN: cut when old enough */
+    double cut_year;             /* year of a cut, see ceduo_first_cut(); NaN: cut when old enough */
     struct ceduo_stand stand;
 };
 

@@ -21,7 +21,7 @@ struct ceduo_year {
 enum ceduo_window_kind {
     CEDUO_WINDOW_GIVEN,    /* requested by the caller or the scene */
     CEDUO_WINDOW_AHEAD,    /* the next years from today, the same for all options */
-    CEDUO_WINDOW_ROTATION, /* one whole rotation, from the year on in which all belts with cuts have been cut */
+    CEDUO_WINDOW_ROTATION, /* one whole rotation, after all belts with cuts have been cut once */
     CEDUO_WINDOW_CONSTANT  /* no growth and no cuts: year 0, today, represents all years */
 };
 

@@ -85,7 +85,7 @@ struct arguments {
     struct text *title;              /* of the first scene of a report */
 };
 
-/* What an option requires. */
+/* Requirement of an option. */
 enum option_requirement { NEEDS_NOTHING, NEEDS_GOAL, NEEDS_FIND, NEEDS_PLOT, NEEDS_PICTURE, NEEDS_CSV, NEEDS_FILE };
 
 /* An option of the command line. Parser, help, checks, completion and the synopsis of ceduo(1) read this row. */

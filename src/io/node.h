@@ -104,11 +104,11 @@ const struct node *ceduo_resolve_at(const struct node *root, const char *path);
 void ceduo_emit(struct text *text, const struct node *root);
 
 /* Return the tree for the scene's own file. Unchanged content of another file becomes its path again. A changed stand becomes
- * `base` and its changes. A changed slope is written out. For the program, where no arena fails. */
+ * `base` and its changes. A changed slope is written out. For the program only: its arenas do not fail. */
 const struct node *ceduo_emit_restore_references(struct arena *arena, const struct node *root);
 
 /* Append the text of `source`, whose tree is `old`, with the values of `root` (unresolved), so that comments and layout stay.
- * Return false, and append nothing, if more than values has changed. For the program, where no text runs out of memory. */
+ * Return false, and append nothing, if more than values has changed. For the program only: its texts do not fail. */
 bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old, const struct node *root);
 
 /* Append a tree on one line. */

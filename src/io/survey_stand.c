@@ -169,7 +169,7 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
     }
 }
 
-/* Return the stools per hectare, at most as many as shoots, also after rounding. */
+/* Return the stools per hectare, limited to the shoots per hectare, also after rounding. */
 static double count_stools(const struct writer *w)
 {
     double shoots = 0;

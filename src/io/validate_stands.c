@@ -104,7 +104,7 @@ static const struct node *copy_stems(struct validator *v, const struct node *sta
     return stand;
 }
 
-/* True unless a stand has the name of its file but other stems than the stand of that file. */
+/* False if a stand has the name of its file, but its stems differ from those of the file. */
 static bool has_named_stand(struct validator *v, const struct node *stand)
 {
     const struct node *written = stand->written, *followed = stand->followed; /* both NULL or both set */

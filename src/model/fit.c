@@ -133,7 +133,7 @@ enum ceduo_status ceduo_fit_compute(const struct scene_file *file, const struct 
     def.seed = file->scene.simulation.seed;
     enum ceduo_status status = ceduo_calibrate(&def, &f->answer);
     if (status == CEDUO_OK && !f->answer.converged)
-        f->undetermined.n = ceduo_calibration_unidentified(&f->answer, f->undetermined.values);
+        f->undetermined_count = ceduo_calibration_unidentified(&f->answer, f->undetermined);
     return status;
 }
 

@@ -19,18 +19,13 @@ struct fit_request {
     uint64_t rocks; /* rocks of each evaluation */
 };
 
-/* Values that the observations do not determine. A fit without them is quicker. */
-struct fit_undetermined {
-    size_t n;
-    bool values[CEDUO_CALIBRATION_MAX]; /* for each value of the request */
-};
-
 struct fit {
     struct fit_request request;
-    struct fit_undetermined undetermined;
-    bool done;                            /* false: still running; only `state` is valid */
-    struct ceduo_calibration_state state; /* progress; the members below are set when done */
-    struct scene_file file;               /* scene at the start of the fit; its nodes are the document's */
+    size_t undetermined_count;                /* set when done */
+    bool undetermined[CEDUO_CALIBRATION_MAX]; /* values of the request that the observations do not determine */
+    bool done;                                /* false: still running; only `state` is valid */
+    struct ceduo_calibration_state state;     /* progress; the members below are set when done */
+    struct scene_file file;                   /* scene at the start of the fit; its nodes are the document's */
     struct ceduo_input inputs[CEDUO_CALIBRATION_MAX];
     struct ceduo_calibration answer;
 };

@@ -252,6 +252,11 @@ static bool read_draws(const struct fitting *f, const struct chains *chains, str
 
 #define COLLINEAR 0.9 /* correlation above which the observations identify only a combination of two values */
 
+static double relative_width(const struct ceduo_fitted *p)
+{
+    return (p->p97_5 - p->p2_5) / (p->hi - p->lo);
+}
+
 /* Return the parameter with the wider range in the most correlated pair that is not selected; SIZE_MAX: no collinear pair. */
 static size_t find_collinear(const struct ceduo_calibration *a, const bool *selected)
 {
@@ -260,16 +265,10 @@ static size_t find_collinear(const struct ceduo_calibration *a, const bool *sele
     for (size_t i = 0; i < a->parameters_count; i++)
         for (size_t k = 0; k < i; k++)
             if (!selected[i] && !selected[k] && fabs(a->correlation[i][k]) > max) {
-                const struct ceduo_fitted *p = &a->parameters[i], *q = &a->parameters[k];
                 max = fabs(a->correlation[i][k]);
-                worse = (p->p97_5 - p->p2_5) / (p->hi - p->lo) > (q->p97_5 - q->p2_5) / (q->hi - q->lo) ? i : k;
+                worse = relative_width(&a->parameters[i]) > relative_width(&a->parameters[k]) ? i : k;
             }
     return worse;
-}
-
-static double relative_width(const struct ceduo_fitted *p)
-{
-    return (p->p97_5 - p->p2_5) / (p->hi - p->lo);
 }
 
 size_t ceduo_calibration_unidentified(const struct ceduo_calibration *a, bool selected[CEDUO_CALIBRATION_MAX])

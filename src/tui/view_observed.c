@@ -134,12 +134,8 @@ static void append_fit(const struct fit *f, struct ceduo_page *page)
     ceduo_page_note(page,
                     _("Fitted. Enter applies these values, Esc discards them. The picture shows the scene without them."));
     LOCAL_TEXT(undetermined);
-    for (size_t i = 0; f->undetermined.n > 0 && i < f->request.n; i++)
-        if (f->undetermined.values[i]) {
-            ceduo_text_append(&undetermined, undetermined.length > 0 ? ", " : "");
-            ceduo_calibration_name(&undetermined, f->request.values[i].path);
-        }
-    if (f->undetermined.n > 0)
+    ceduo_calibration_names(&undetermined, f->inputs, f->request.n, f->undetermined);
+    if (f->undetermined_count > 0)
         ceduo_page_para(page, CEDUO_PAGE_NOTE,
                         _("The observations do not determine all %zu values: fix %s. c fits without it, which is faster."),
                         f->request.n, ceduo_text_string(&undetermined));
@@ -332,7 +328,7 @@ static bool submit_fit(struct app *app, struct popup *p)
 static bool is_determined(const struct fit *last, struct fit_value *value)
 {
     for (size_t i = 0; i < last->request.n; i++)
-        if (strcmp(last->request.values[i].path, value->path) == 0 && !last->undetermined.values[i]) {
+        if (strcmp(last->request.values[i].path, value->path) == 0 && !last->undetermined[i]) {
             *value = last->request.values[i];
             return true;
         }
@@ -362,7 +358,7 @@ static void ask_fit_values(struct app *app)
         LOCAL_TEXT(label);
         LOCAL_TEXT(bounds);
         ceduo_calibration_name(&label, request.values[i].path);
-        if (last && last->undetermined.n > 0 ? is_determined(last, &request.values[i]) : i < FILLED)
+        if (last && last->undetermined_count > 0 ? is_determined(last, &request.values[i]) : i < FILLED)
             append_bounds(&bounds, &request.values[i]);
         ceduo_popup_add_field(p, label.bytes, ceduo_text_string(&bounds));
     }

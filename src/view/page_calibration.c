@@ -21,6 +21,17 @@ void ceduo_calibration_name(struct text *text, const char *path)
         ceduo_text_format(text, " [%.*s]", (int)strcspn(bracket + 1, "]"), bracket + 1);
 }
 
+void ceduo_calibration_names(struct text *text, const struct ceduo_input *inputs, size_t n, const bool *selected)
+{
+    bool empty = true;
+    for (size_t i = 0; i < n; i++)
+        if (!selected || selected[i]) {
+            ceduo_text_append(text, empty ? "" : ", ");
+            ceduo_calibration_name(text, inputs[i].path);
+            empty = false;
+        }
+}
+
 /* Convert to the display unit. */
 static double to_display_unit(const char *path, double value)
 {
@@ -168,7 +179,7 @@ static void add_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         ceduo_page_note(page, _("The model reproduces all fitted observations."));
 }
 
-/* Report which values to fix because the chains have not converged. If none stands out, suggest the widest. */
+/* Report which values to fix because the chains have not converged. */
 static void add_unconverged(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
@@ -180,16 +191,11 @@ static void add_unconverged(struct ceduo_page *page, const struct ceduo_calibrat
         return;
     }
     ceduo_calibration_unidentified(a, unidentified);
-    for (size_t i = 0; i < a->parameters_count; i++) {
-        LOCAL_TEXT(name);
-        ceduo_calibration_name(&name, r->inputs[i].path);
-        ceduo_text_format(&all, "%s%s", i > 0 ? ", " : "", name.bytes);
-        if (unidentified[i])
-            ceduo_text_format(&fixed, "%s%s", fixed.length > 0 ? ", " : "", name.bytes);
-    }
+    ceduo_calibration_names(&all, r->inputs, a->parameters_count, NULL);
+    ceduo_calibration_names(&fixed, r->inputs, a->parameters_count, unidentified);
     ceduo_page_para(page, CEDUO_PAGE_WARNING,
                     _("The observations do not determine %s; the ranges are rough. Fix %s, or observe more."), all.bytes,
-                    fixed.bytes);
+                    ceduo_text_string(&fixed));
 }
 
 void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *r)

@@ -294,6 +294,8 @@ struct ceduo_calibration_report {
 /* Append the name of a fitted value, "bounce Rn, talus"; its number in the display unit. */
 void ceduo_calibration_name(struct text *text, const char *path);
 void ceduo_calibration_number(struct text *text, const char *path, double value);
+/* Append the names of the selected values, separated by ", ". `selected` NULL: all. */
+void ceduo_calibration_names(struct text *text, const struct ceduo_input *inputs, size_t n, const bool *selected);
 
 /* Convert an observed value to the unit of files: m, m/s, kJ, count. */
 double ceduo_observed_shown(const struct scene_file *file, const struct ceduo_predicted *p, double value);

@@ -6,7 +6,6 @@
 With --show WORD: prints each match of the patterns that contain the word.
 """
 import re
-import subprocess
 import sys
 
 import harness
@@ -14,13 +13,11 @@ from harness import ROOT, expect
 
 PATTERNS = ROOT / "tests" / "language.txt"
 COMMENT = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|/\*(.*?)\*/|//([^\n]*)', re.S)
-MESSAGE = re.compile(r'\b(?:N?P?_|ngettext|ngettext_)\(\s*((?:"(?:\\.|[^"\\])*"\s*(?:PRI\w+\s*)?,?\s*)+)')
+MESSAGE = re.compile(r'\b(?:N?P?_|ngettext)\(\s*((?:"(?:\\.|[^"\\])*"\s*(?:PRI\w+\s*)?,?\s*)+)')
 
 
 def files(*folders):
-    listed = subprocess.run(["git", "ls-files", *folders], cwd=ROOT, capture_output=True, text=True).stdout.split()
-    found = listed or [str(p.relative_to(ROOT)) for folder in folders for p in sorted((ROOT / folder).rglob("*.[ch]"))]
-    return [ROOT / name for name in found if name.endswith((".c", ".h"))]
+    return [path for folder in folders for path in sorted((ROOT / folder).rglob("*.[ch]"))]
 
 
 def comments(text):

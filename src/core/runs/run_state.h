@@ -53,7 +53,7 @@ struct ceduo_run {
     struct batch complete; /* sum of all complete batches */
     struct batch tail;     /* the last, incomplete batch */
     struct batch *slots;   /* [slots_count]; batches of the current chunk */
-    size_t slots_count;    /* CHUNK_BATCHES, or as many as the run can have */
+    size_t slots_count;    /* CHUNK_BATCHES, or fewer for a short run */
     bool weighted;         /* rocks have weights */
     double *weights;       /* [capacity] */
     bool identical;        /* the rocks differ only in their numbers */

@@ -4,7 +4,7 @@
 
 #define DBH_MIN 0.1 /* m: thinner stems are outside the data */
 
-enum { RATIO /* FE */, DBH /* m, of the mean stem */, CENTRED /* J, of that stem: most hits reuse it */ };
+enum { RATIO /* FE */, DBH /* m, of the mean stem */, CENTRED /* J, mean stem hit centrally: most hits reuse it */ };
 
 static void prepare(struct stem_energy *to, const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {

@@ -111,7 +111,7 @@ enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law);
 /* Move from the release to the first contact. This and the next functions return false if the trajectory ends, at w->flight. */
 bool ceduo_walk_start(struct walker *w, struct rock_state *c, enum ceduo_end *end);
 
-/* Report the marks that a flight passes up to x, where it lands after t. */
+/* Report the marks that a flight passes up to its landing, at x after t. */
 void ceduo_walk_pass_marks(struct walker *w, struct flight flight, double x, double t);
 
 /* Consume the next stem ahead, which the flight reaches after t. False if the trajectory is aborted. Then, or if the stem is
