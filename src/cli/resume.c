@@ -79,7 +79,18 @@ static uint64_t hash_columns(const struct each *e, const struct text *head)
 {
     uint64_t hash = hash_bytes(head->bytes, head->length);
     for (size_t i = 0; i < e->heads_count; i++)
-        hash_text(&hash, ceduo_each_is_copied(&e->heads[i]) ? "" : e->heads[i].name);
+        hash_text(&hash, e->heads[i].sets == PATH_UNKNOWN ? "" : e->heads[i].name);
+    return hash;
+}
+
+uint64_t ceduo_resume_run(const struct arguments *a, const struct scene_file *file)
+{
+    uint64_t hash = ceduo_resume_files(file);
+    hash_text(&hash, CEDUO_VERSION);
+    hash_count(&hash, hash_options(a));
+    hash_count(&hash, a->rocks);
+    for (size_t i = 0; i < a->sets.n; i++)
+        hash_text(&hash, a->sets.items[i]);
     return hash;
 }
 
