@@ -142,6 +142,51 @@ def test_renamed_columns():
             expect_in(words, r.err)
 
 
+CLASSES = """what,controls[0].accepted_kJ,controls[0].x_m,release,forest[0].stand.stools.per_ha,forest[0].stand.shoots[0].per_ha,slope
+exceeds,,,,,,
+without-forest,9000,,,,,
+forest,,,,,40000,
+no-rock-moves,,,"{x_m: 0, vx_m_s: 0, vz_m_s: 0}",,,"{vertices_m: [[0, 50], [20, 51], [100, 0]], segments: SEGMENTS}"
+not-reached,,190,,,,"{vertices_m: [[0, 50], [20, 40], [200, 40]], segments: SEGMENTS}"
+contradicts-terrain,,110,,,,"{vertices_m: [[0, 90], [50, 51], [51, 51], [52, 50], [120, 0]], segments: [{rn: .05, rt: .05, friction: 2}]}"
+failed,,,,9000,,
+"""
+
+
+def test_classes():
+    """verdict.class is a number and verdict.why a word: where the ground holds the rocks is not where none moves"""
+    wanted = {"exceeds": ("no", "4"), "without-forest": ("yes", "1"), "forest": ("yes", "2"), "no-rock-moves": ("nothing", "5"),
+              "not-reached": ("nothing", "0"), "contradicts-terrain": ("nothing", "3"), "failed": ("", "5")}
+    with Folder() as f:
+        valley(f, CLASSES.replace("SEGMENTS", "[{rn: .3, rt: .8, roughness_rad: .1, friction: .5}]"))
+        words = ["-b", "-q", "-n", 1000, "-f", "csv", "--each", "rows.csv"]
+        names = "what,verdict.answer,verdict.class,verdict.why,bare.exceed_probability,wooded.exceed_probability"
+        r = ceduo(*words, "--columns", names, "s.yaml", cwd=f.path)
+        rows = {row["what"]: row for row in table(r.out)}
+        expect_equal({what: (row["verdict.answer"], row["verdict.class"]) for what, row in rows.items()}, wanted, str(r))
+        expect_equal([row["verdict.why"] for row in rows.values()], list(wanted))
+        expect(float(rows["forest"]["bare.exceed_probability"]) > 0.05 > float(rows["forest"]["wooded.exceed_probability"]), rows["forest"])
+        f.write("rows.csv", "id,controls[0].accepted_kJ,simulation.contact_model\nno limit,.,\nindex,20,index\n")
+        f.write("s.yaml", wooded_scene(controls=[{"x_m": 60}]))
+        rows = table(run(f, "-f", "csv", "--columns", "id,verdict.class,verdict.why").out)
+        expect_equal([tuple(row.values()) for row in rows], [("no limit", "", ""), ("index", "", "")])
+
+
+def test_added_columns():
+    """worst.* are those of the window, uncertainty.* are computed only if --columns names them"""
+    names = "option,worst.year,worst.exceed,uncertainty.p5,uncertainty.p95,version,wooded.exceed_probability,verdict.answer,verdict.class"
+    words = ["-b", "-n", 100, "--option", "selection coppice", "--option", "simple coppice, just cut"]
+    rows = table(good(*words, "-f", "csv", "--columns", names, "four-systems").out)
+    answer = good(*words, "-f", "json", "four-systems").json()[0]
+    for row, option in zip(rows, answer["options"]):
+        expect_equal((row["option"], int(row["worst.year"]), float(row["worst.exceed"]), row["version"]),
+                     (option["name"], option["window"]["worst_year"], option["window"]["worst"], answer["version"]))
+        lo, hi, share = (float(row[k]) for k in ("uncertainty.p5", "uncertainty.p95", "wooded.exceed_probability"))
+        expect(0 <= lo <= share <= hi <= 1, row)
+    plain = table(good(*words, "-f", "csv", "four-systems").out)
+    expect_equal({row["uncertainty.p5"] for row in plain}, {""})
+
+
 def test_run():
     """The column run changes with all that changes figures, and with nothing else"""
     with Folder() as f:
