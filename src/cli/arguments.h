@@ -78,6 +78,7 @@ struct arguments {
     uint64_t points;                 /* of --sensitivity */
     const char *survey;              /* a CSV file of plots; NULL: none */
     const char *each;                /* a CSV file whose rows change the scenes; NULL: none */
+    const char *key;                 /* column of `each` that names a row; NULL: none */
     const char *columns;             /* heads of CSV, separated by commas; NULL: all */
     int schema;                      /* a word of the option's row */
     bool resume;                     /* keep the lines of the output */
@@ -86,7 +87,7 @@ struct arguments {
 };
 
 /* Requirement of an option. */
-enum option_requirement { NEEDS_NOTHING, NEEDS_GOAL, NEEDS_FIND, NEEDS_PLOT, NEEDS_PICTURE, NEEDS_CSV, NEEDS_FILE };
+enum option_requirement { NEEDS_NOTHING, NEEDS_GOAL, NEEDS_FIND, NEEDS_PLOT, NEEDS_PICTURE, NEEDS_CSV, NEEDS_EACH, NEEDS_FILE };
 
 /* An option of the command line. Parser, help, checks, completion and the synopsis of ceduo(1) read this row. */
 struct option_row {

@@ -2,6 +2,8 @@
 /* Computes scenes one by one: --batch, --plot, --find, --sensitivity, --report and --check; with --each, once for each row. */
 #include "batch.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,21 +24,20 @@ struct batch {
     struct columns columns;
     struct resume resume;
     struct output output;
-    struct text header; /* of the result in CSV */
     struct text head;   /* head of the output in CSV */
     struct text out;    /* not written yet */
     bool first;         /* no answer was printed yet */
 };
 
-/* Append the answer of the current scene. */
-static void append_answer(struct batch *b, const struct text *answer)
+/* Append the answer of the current scene, or the reason of its failure. */
+static void append_answer(struct batch *b, const struct text *answer, const struct ceduo_row_state *state)
 {
     const struct arguments *a = &b->arguments;
     bool row = b->each.rows;
     if (a->format == CEDUO_CSV) {
         if (b->first && !a->resume)
             ceduo_text_append_n(&b->out, b->head.bytes, b->head.length);
-        ceduo_columns_lines(&b->columns, answer, &b->out);
+        ceduo_columns_visit(&b->columns, answer, state, ceduo_columns_print, &b->out);
     } else if (a->format == CEDUO_JSON && row) {
         struct json json = {.text = &b->out};
         ceduo_json_open(&json, NULL, '{');
@@ -117,12 +118,10 @@ static enum exit_status open_batch(struct batch *b, const struct arguments *give
 {
     const struct arguments *a = &b->arguments;
     enum exit_status status = ceduo_each_open(&b->each, given);
-    if (a->format == CEDUO_CSV)
-        ceduo_csv_head(&b->header, choose_csv(a));
     if (status == EXIT_DONE)
-        status = ceduo_columns_open(&b->columns, &b->each, &b->header);
+        status = ceduo_columns_open(&b->columns, &b->each, a->format == CEDUO_CSV ? choose_csv(a)->columns : NULL);
     if (status == EXIT_DONE && a->format == CEDUO_CSV)
-        ceduo_columns_head(&b->columns, &b->header, &b->head);
+        ceduo_columns_head(&b->columns, &b->head);
     return status == EXIT_DONE && a->resume ? ceduo_resume_open(&b->resume, &b->each, &b->head) : status;
 }
 
@@ -136,34 +135,85 @@ static enum exit_status write_next(struct batch *b, uint64_t key, enum exit_stat
     return status;
 }
 
+/* Append the reason of a failure in English, because the text is data. */
+static void append_reason(struct each *each, struct text *reason)
+{
+    const struct arguments *a = &each->arguments;
+    struct scene_sets sets = {a->sets.items, a->sets.n, a->cells, a->called};
+    LOCAL_PROBLEMS(problems);
+    problems.brief = true;
+    struct scene_file file;
+    ceduo_each_reason(each, reason);
+    if (reason->length > 0)
+        return;
+    ceduo_language_set_data(true);
+    ceduo_scene_load_row(&file, each->path, &sets, &problems);
+    ceduo_language_set_data(false);
+    ceduo_scene_release(&file);
+    struct problem first = problems.wrong.items[0];
+    if (problems.wrong.n == 0) {
+        ceduo_text_append(reason, "not computed; see the messages of the run");
+        return;
+    }
+    if (strcmp(first.place, a->called) == 0)
+        first.place = "";
+    ceduo_problem_line(&first, reason);
+}
+
+/* Write a row that failed. It is one of the answers if these are lines of data. */
+static enum exit_status write_failed(struct batch *b, uint64_t key, const char *run, enum exit_status result)
+{
+    LOCAL_TEXT(reason);
+    LOCAL_TEXT(answer);
+    enum exit_status known;
+    const struct arguments *a = &b->arguments;
+    if (!b->each.rows || (a->format != CEDUO_CSV && a->format != CEDUO_JSON))
+        return EXIT_DONE;
+    append_reason(&b->each, &reason);
+    hash_count(&key, hash_bytes(ceduo_text_string(&reason), reason.length));
+    if (a->resume && ceduo_resume_has(&b->resume, key, &known))
+        return EXIT_DONE;
+    const struct ceduo_row_state state = {ceduo_text_string(&reason), run};
+    if (a->format == CEDUO_JSON)
+        ceduo_figures_json(&answer, ceduo_failed_figures, &state, false);
+    append_answer(b, &answer, &state);
+    return write_next(b, key, result);
+}
+
 /* Compute the current scene unless the output has it. */
 static enum exit_status compute(struct batch *b, ceduo_batch_answer *answer, enum exit_status *output_status)
 {
     struct each *each = &b->each;
-    struct scene_file file;
-    bool resume = b->arguments.resume;
+    struct scene_file file = {.path = NULL};
+    bool resume = b->arguments.resume, bad = each->row && each->row->bad;
     uint64_t key = ceduo_each_hash(each);
     enum exit_status result;
+    char run[17] = "";
     LOCAL_TEXT(answer_text);
-    if (resume && !each->names_files && ceduo_resume_has(&b->resume, key, &result))
+    if (resume && !bad && !each->names_files && ceduo_resume_has(&b->resume, key, &result))
         return result;
-    result = ceduo_batch_read(&each->arguments, each->path, &file);
+    result = bad ? EXIT_INPUT : ceduo_batch_read(&each->arguments, each->path, &file);
     if (each->names_files)
         hash_count(&key, ceduo_resume_files(&file));
     bool done = resume && result == EXIT_DONE && each->names_files && ceduo_resume_has(&b->resume, key, &result);
+    if (b->columns.run_wanted)
+        snprintf(run, sizeof run, "%016" PRIx64, ceduo_resume_run(&each->arguments, &file));
     if (result == EXIT_DONE && !done) {
         ceduo_interrupt_catch();
         result = answer(&each->arguments, &file, &answer_text);
     }
-    ceduo_scene_release(&file);
-    if (done)
+    if (!bad)
+        ceduo_scene_release(&file);
+    bool failed = result > EXIT_RUN || (result == EXIT_RUN && !answer_text.bytes); /* an unfinished answer is printed */
+    if (done || atomic_load(ceduo_interrupt_flag()))
         return result;
-    if (result > EXIT_RUN ||
-        (result == EXIT_RUN && !answer_text.bytes)) /* an unfinished answer is printed and does not count as failed */
+    if (failed)
         ceduo_each_note_failed(each);
-    if (result > EXIT_RUN || !answer_text.bytes || atomic_load(ceduo_interrupt_flag()))
+    if (failed && result != EXIT_OUTPUT)
+        *output_status = write_failed(b, key, run, result);
+    if (failed || !answer_text.bytes)
         return result;
-    append_answer(b, &answer_text);
+    append_answer(b, &answer_text, &(struct ceduo_row_state){.run = run});
     *output_status = write_next(b, key, result);
     return result;
 }
@@ -220,7 +270,7 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
     status = worse(status, b.each.bad_rows ? EXIT_INPUT : EXIT_DONE);
     ceduo_each_close(&b.each);
     ceduo_profiles_free(&profiles);
-    ceduo_text_free(&b.header);
+    ceduo_columns_close(&b.columns);
     ceduo_text_free(&b.head);
     ceduo_text_free(&b.out);
     return status;

@@ -303,8 +303,11 @@ static const struct option_row rows[] = {
     {"each", 0, "ROWS.csv", set_text, MEMBER(each), MODE_TERMINAL, M_FIT | M_PAGE | M_SURVEY | M_SCREEN,
      .help = N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "
                 "copied")},
+    {"key", 0, "NAME", set_text, MEMBER(key), MODE_TERMINAL, M_FIT | M_PAGE | M_SURVEY | M_SCREEN, NEEDS_EACH,
+     .help = N_("the column of --each that names a row: messages use it, and other copied columns are printed only if --columns "
+                "names them")},
     {"columns", 0, "LIST", set_text, MEMBER(columns), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN,
-     NEEDS_CSV, .help = N_("print these columns of CSV, with commas between their names")},
+     NEEDS_CSV, .help = N_("print these columns of CSV, with commas between their names; NAME=COLUMN renames one")},
     {"resume", 0, NULL, set_flag, MEMBER(resume), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_SCREEN, NEEDS_FILE,
      .help = N_("with --each and -o: do not compute rows again that FILE has; FILE grows row by row, and so does FILE.resume")},
     {"seed", 0, "N", set_seed, MEMBER(seed), MODE_TERMINAL, M_SURVEY | M_SCREEN,
@@ -349,7 +352,7 @@ static const struct option_row rows[] = {
      .help = N_("list the scenes, slopes, stands and rules that can be named")},
     {"list-columns", 0, NULL, NULL, 0, MODE_COLUMNS, M_SURVEY,
      .help = N_("list path, type, unit and meaning of each column of CSV, also with --rows stands or --years")},
-    {"schema", 0, "result|find|sensitivity|calibration", set_word, MEMBER(schema), MODE_SCHEMA, M_SURVEY,
+    {"schema", 0, "result|find|sensitivity|calibration|failed", set_word, MEMBER(schema), MODE_SCHEMA, M_SURVEY,
      .help = N_("print the JSON Schema of this output")},
     {"survey", 0, "FILE.csv", set_text, MEMBER(survey), MODE_SURVEY, M_CHECK,
      .help = N_("write the stand of a survey: a CSV file with a row for each stem on sample plots; --survey --template writes "
@@ -432,6 +435,7 @@ static enum exit_status check_rows(const struct arguments *a, const char *mode)
                  [NEEDS_PLOT] = {"--plot", plot},
                  [NEEDS_PICTURE] = {"--plot", plot || a->mode == MODE_TERMINAL},
                  [NEEDS_CSV] = {"--format csv", csv || a->mode == MODE_COLUMNS},
+                 [NEEDS_EACH] = {"--each", a->each != NULL},
                  [NEEDS_FILE] = {"--each --output --format csv", a->each && a->output && csv}};
     for (size_t i = 0; i < OPTIONS; i++) {
         const struct option_row *row = &rows[i];

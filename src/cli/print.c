@@ -31,7 +31,7 @@ static bool print_figures(const struct arguments *a, const struct ceduo_figure *
 /* True unless --columns has no column that depends on future years. */
 static bool judges_years(const struct arguments *a)
 {
-    return !a->columns || strstr(a->columns, "window.") || strstr(a->columns, "verdict.");
+    return !a->columns || strstr(a->columns, "worst.") || strstr(a->columns, "verdict.");
 }
 
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)
@@ -50,7 +50,7 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
     }
     q.question.run.other_energy = !page || a->details;
     enum ceduo_status status = ceduo_query_run(&q);
-    if (status == CEDUO_OK && page)
+    if (status == CEDUO_OK && (page || (a->columns && strstr(a->columns, "uncertainty."))))
         status = ceduo_query_add_uncertainty(&q, a, file);
     if (status == CEDUO_OK) {
         const struct ceduo_report report = {.file = file,
