@@ -34,10 +34,10 @@ def band(x, start, height, width):
 length, terrain, stands, line = int(sys.argv[1]), *sys.argv[2:]
 x, y = np.meshgrid(np.arange(length // CELL) * CELL + CELL / 2, np.arange(WIDTH // CELL) * CELL + CELL / 2)
 uphill = road(x) - y
-z = 300 + np.interp(uphill, [-200, -60, -8, 4, 14, 190, 430, 800], [90, -9, -1, 0, 3, 112, 240, 290])
+z = 300 + np.interp(uphill, [-200, -60, -8, 4, 14, 190, 430, 800], [90, -9, -1, 0, 3, 122, 270, 330])
 z += band(x, 180, 55 * np.sin(x / 150 + .6), 25) + band(x, 320, 40 * np.cos(x / 210), 18)
 z += np.clip(uphill / 60, 0, 1) * (3 * np.sin(x / 21 + y / 90) + .4 * np.sin(x / 4) * np.cos(y / 5))
-z -= 30 * np.exp(-((x - .4 * length) ** 2 + (uphill - 90) ** 2) / 900)
+z -= 60 * np.exp(-((x - .4 * length) ** 2 + (uphill - 120) ** 2) / 1500)
 z[(x > length - 80) & (uphill > 250)] = -9999
 code = np.select([uphill < 15, uphill < 130 + 50 * np.sin(x / 90), uphill < 320], [0, 1, 2], 3)
 write(terrain, z, gdal.GDT_Float32, -9999)
