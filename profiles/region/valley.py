@@ -1,49 +1,28 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make an invented valley to try the workflow: valley.py LENGTH TERRAIN STANDS ROAD
-
-A road runs along the foot of a slope with two bands of rock, gullies, a quarry (a pit) and a corner without data."""
+"""Make an invented valley: valley.py LENGTH TERRAIN STANDS ROAD. It has bands of rock, gullies, a quarry and a corner without data."""
 import json
 import sys
-
 import numpy as np
-from osgeo import gdal, osr
-
-CELL, WIDTH, WEST, NORTH = 5, 700, 360000, 4860000
-
+from osgeo import gdal
 
 def write(path, array, kind, nodata):
-    srs = osr.SpatialReference()
-    srs.ImportFromEPSG(32633)
     out = gdal.GetDriverByName("GTiff").Create(path, array.shape[1], array.shape[0], 1, kind, ["COMPRESS=DEFLATE"])
-    out.SetGeoTransform((WEST, CELL, 0, NORTH, 0, -CELL))
-    out.SetProjection(srs.ExportToWkt())
+    out.SetGeoTransform((360000, 5, 0, 4860000, 0, -5))
+    out.SetProjection("EPSG:32633")
     out.GetRasterBand(1).SetNoDataValue(nodata)
     out.GetRasterBand(1).WriteArray(array)
 
-
-def road(x):
-    return 540 + 30 * np.sin(x / 140)
-
-
-def band(x, start, height, width):
-    """Return the rise of a band of rock, north of `start` metres above the road."""
-    return np.maximum(0, height) * np.clip((uphill - start - 12 * np.sin(x / 60)) / width, 0, 1)
-
-
-length, terrain, stands, line = int(sys.argv[1]), *sys.argv[2:]
-x, y = np.meshgrid(np.arange(length // CELL) * CELL + CELL / 2, np.arange(WIDTH // CELL) * CELL + CELL / 2)
-uphill = road(x) - y
-z = 300 + np.interp(uphill, [-200, -60, -8, 4, 14, 190, 430, 800], [90, -9, -1, 0, 3, 122, 270, 330])
-z += band(x, 180, 55 * np.sin(x / 150 + .6), 25) + band(x, 320, 40 * np.cos(x / 210), 18)
-z += np.clip(uphill / 60, 0, 1) * (3 * np.sin(x / 21 + y / 90) + .4 * np.sin(x / 4) * np.cos(y / 5))
-z -= 60 * np.exp(-((x - .4 * length) ** 2 + (uphill - 120) ** 2) / 1500)
-z[(x > length - 80) & (uphill > 250)] = -9999
-code = np.select([uphill < 15, uphill < 130 + 50 * np.sin(x / 90), uphill < 320], [0, 1, 2], 3)
+length, terrain, stands, road = int(sys.argv[1]), *sys.argv[2:]
+x, y = np.meshgrid(np.arange(2.5, length, 5), np.arange(2.5, 700, 5))
+up = 540 + 30 * np.sin(x / 140) - y  # metres north of the road
+z = 300 + np.interp(up, [-200, -60, -8, 4, 14, 190, 430, 800], [90, -9, -1, 0, 3, 122, 270, 330])
+for start, height, width in ((180, 55 * np.sin(x / 150 + .6), 25), (320, 40 * np.cos(x / 210), 18)):
+    z += np.maximum(0, height) * np.clip((up - start - 12 * np.sin(x / 60)) / width, 0, 1)
+z += np.clip(up / 60, 0, 1) * (3 * np.sin(x / 21 + y / 90) + .4 * np.sin(x / 4) * np.cos(y / 5))
+z -= 50 * np.exp(-((x - .4 * length) ** 2 + (up - 120) ** 2) / 900)
+z[(x > length - 80) & (up > 250)] = -9999
 write(terrain, z, gdal.GDT_Float32, -9999)
-write(stands, code, gdal.GDT_Byte, 255)
-points = [[WEST + float(a), NORTH - round(float(road(a)), 2)] for a in range(10, length, 10)]
-feature = {"type": "Feature", "properties": {"name": "SP 1"}, "geometry": {"type": "LineString", "coordinates": points}}
-crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32633"}}
-with open(line, "w", encoding="utf-8") as out:
-    json.dump({"type": "FeatureCollection", "crs": crs, "features": [feature]}, out)
+write(stands, np.select([up < 15, up < 130 + 50 * np.sin(x / 90), up < 320], [0, 1, 2], 3), gdal.GDT_Byte, 255)
+line = {"type": "LineString", "coordinates": [[360000 + a, 4859460 - round(30 * np.sin(a / 140), 2)] for a in range(10, length, 10)]}
+json.dump({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32633"}},
+           "features": [{"type": "Feature", "properties": {}, "geometry": line}]}, open(road, "w"))
