@@ -326,7 +326,7 @@ static bool hardly_moves(const struct ceduo_result *r)
 {
     const struct ceduo_ends *ends = &r->bare.ends;
     return ends->count[CEDUO_AT_REST] == r->bare.rocks &&
-           ends->stop_max - ceduo_number_max(r->scene->release.x) < CEDUO_MOVES_MIN;
+           ends->stop_max - ceduo_scene_release_last(r->scene) < CEDUO_MOVES_MIN;
 }
 
 enum ceduo_class ceduo_outcome_classify(const struct ceduo_result *r, const struct ceduo_outcome *o, size_t control,

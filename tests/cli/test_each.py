@@ -145,17 +145,18 @@ def test_renamed_columns():
 CLASSES = """what,controls[0].accepted_kJ,controls[0].x_m,release,forest[0].stand.stools.per_ha,forest[0].stand.shoots[0].per_ha,slope
 exceeds,,,,,,
 without-forest,9000,,,,,
-forest,,,,,40000,
+forest,180,,,,,
+impossible-stand,,,,,40000,
 no-rock-moves,,,"{x_m: 0, vx_m_s: 0, vz_m_s: 0}",,,"{vertices_m: [[0, 50], [20, 51], [100, 0]], segments: SEGMENTS}"
 not-reached,,190,,,,"{vertices_m: [[0, 50], [20, 40], [200, 40]], segments: SEGMENTS}"
-contradicts-terrain,,110,,,,"{vertices_m: [[0, 90], [50, 51], [51, 51], [52, 50], [120, 0]], segments: [{rn: .05, rt: .05, friction: 2}]}"
+contradicts-terrain,,70,,,,"{vertices_m: [[0, 90], [70, 30], [120, 0]], segments: [{rn: .05, rt: .05, friction: 1, roughness_rad: .2}]}"
 failed,,,,9000,,
 """
 
 
 def test_classes():
     """verdict.class is a number and verdict.why a word: where the ground holds the rocks is not where none moves"""
-    wanted = {"exceeds": ("no", "4"), "without-forest": ("yes", "1"), "forest": ("yes", "2"), "no-rock-moves": ("nothing", "5"),
+    wanted = {"exceeds": ("no", "4"), "without-forest": ("yes", "1"), "forest": ("yes", "2"), "impossible-stand": ("nothing", "3"), "no-rock-moves": ("nothing", "5"),
               "not-reached": ("nothing", "0"), "contradicts-terrain": ("nothing", "3"), "failed": ("", "5")}
     with Folder() as f:
         valley(f, CLASSES.replace("SEGMENTS", "[{rn: .3, rt: .8, roughness_rad: .1, friction: .5}]"))
