@@ -107,8 +107,9 @@ def write(path, table, always=False):
 def wkt(p):
     return "LINESTRING (" + ",".join(f"{T[0] + (a + .5) * CELL:.1f} {T[3] - (b + .5) * CELL:.1f}" for a, b in p) + ")"
 
-def add_line(stretch, way, part, m2, p):
-    """Add the line along p, which ends beside the road: to the road, then straight on."""
+def add_line(stretch, way, part, m2, lowest, p):
+    """Add the line along p, which ends beside the road: to the road, then straight on. Rocks start in each cell of a face that is
+    not below `lowest`."""
     i, after, line = near[cells(p[-1:])][0], int(C["beyond_m"] / CELL), f"{stretch}-{way}-{part}"
     beside = roads[max(0, i - 12):i + 13, :2]
     p = np.vstack([p, beside[np.argmin(np.hypot(*(beside - p[-1]).T))]])
@@ -117,9 +118,11 @@ def add_line(stretch, way, part, m2, p):
     x, h, road_m = distances(p), sample(z, p), distances(p)[-1 - after]
     p, x, h = (a[:np.append(np.flatnonzero(np.isnan(h)), len(p))[0]] for a in (p, x, h))
     write(f"profiles/{line}.csv", [("distance", "elevation"), *((f"{a:.2f}", f"{b:.2f}") for a, b in zip(x, h))])
+    starts = [a for a, b, rock in zip(x, h, face[cells(p)]) if rock and b > lowest - .01 and a < road_m]
+    release = ", ".join(f"{{x_m: {a:.2f}, vx_m_s: {C['speed_m_s']}, share: {1 / len(starts):.6f}}}" for a in starts)
     ground = [grounds[k] for k in np.where(face[cells(p)], -1, codes[cells(p)])]
     lines.append([wkt(p), line, stretch, way, part, f"{m2:.0f}", f"{stretch.split('-')[0]}-{number[points[stretch][0]] // C['job']:04d}",
-                  f"profiles/{line}.csv", f"{m2 / 1e4 * C['per_hectare_year']:.6g}", f"{road_m:.2f}",
+                  f"profiles/{line}.csv", f"{m2 / 1e4 * C['per_hectare_year']:.6g}", f"{road_m:.2f}", f"[{release}]",
                   *(belts([g[k] for g in ground], x, "stand" if k else "material") for k in range(len(C["options"]) + 1))])
 
 gdal.UseExceptions()
@@ -147,10 +150,10 @@ for way in ("smoother", "steepest"):
         below[stretch_of[hit[i]]].append(i)
     for stretch, k in below.items():
         k, foot = np.array(k), z[cells(roads[points[stretch][:1], :2])][0]
-        tops = k[[np.argmax(top[k]), np.argmin(top[k])]]
-        tops = tops[:1 + (top[tops[1]] - foot < 2 / 3 * (top[tops[0]] - foot))]
-        owner = np.argmin(np.abs(top[k][:, None] - top[tops]), axis=1)
-        chosen += [(stretch, way, part, area[k[owner == j]].sum(), i) for j, (i, part) in enumerate(zip(tops, ("high", "low")))]
+        lowest, middle, highest = top[k].min(), (top[k].min() + top[k].max()) / 2, top[k].max()
+        split = lowest - foot < 2 / 3 * (highest - foot)
+        for part, m in (("high", k[top[k] >= middle]), ("low", k[top[k] < middle])) if split else [("high", k)]:
+            chosen.append((stretch, way, part, area[m].sum(), top[m].min(), m[np.argmax(top[m])]))
     for line, p in zip(chosen, descend(low, start[[line[-1] for line in chosen]], True)[2]):
         add_line(*line[:-1], np.array(p))
 ends, stretches = np.full(z.shape, "", object), [["wkt", "stretch", "reason", "face_m2"]]
@@ -159,10 +162,10 @@ for stretch, k in points.items():
     p, m2 = across(low, roads[k, :2]), area[below.get(stretch, [])].sum()
     why = "ok" if m2 else "no-face" if p is None else ends[cells(p[:1])][0].replace("ok", "drains-elsewhere")
     if p is not None and m2:
-        add_line(stretch, "across", "high", m2, p)
+        add_line(stretch, "across", "high", m2, -np.inf, p)
     stretches.append([wkt(roads[k[0]:k[-1] + 2, :2]), stretch, why, f"{m2:.0f}"])
 head = ["wkt", "id", "stretch", "way", "part", "face_m2", "piece", "slope.csv", "blocks.per_year", "controls[0].x_m",
-        "slope.materials", *(f"options[{k}].forest" for k in range(len(C["options"])))]
+        "release", "slope.materials", *(f"options[{k}].forest" for k in range(len(C["options"])))]
 lines.sort(key=lambda line: line[1])
 for piece in {line[6] for line in lines}:
     write(f"pieces/{piece}.csv", [head, *(line for line in lines if line[6] == piece)])
