@@ -150,7 +150,9 @@ static void append_reason(struct each *each, struct text *reason)
     ceduo_scene_load_row(&file, each->path, &sets, &problems);
     ceduo_language_set_data(false);
     ceduo_scene_release(&file);
-    struct problem first = problems.wrong.items[0];
+    bool announces = problems.wrong.n > 1 && strchr(problems.wrong.items[0].message, ':') ==
+                                                 problems.wrong.items[0].message + strlen(problems.wrong.items[0].message) - 1;
+    struct problem first = problems.wrong.items[announces]; /* "valid without this change, but not with it:" */
     if (problems.wrong.n == 0) {
         ceduo_text_append(reason, "not computed; see the messages of the run");
         return;
