@@ -38,6 +38,13 @@ static void append_answer(struct batch *b, const struct text *answer, const stru
         if (b->first && !a->resume)
             ceduo_text_append_n(&b->out, b->head.bytes, b->head.length);
         ceduo_columns_visit(&b->columns, answer, state, ceduo_columns_print, &b->out);
+    } else if (a->format == CEDUO_GEOJSON) {
+        if (b->first)
+            ceduo_text_append(&b->out, "{\"type\": \"FeatureCollection\", \"features\": [\n");
+        else
+            ceduo_text_append(&b->out, ",\n");
+        ceduo_columns_visit(&b->columns, answer, state, ceduo_geojson_print, &b->out);
+        ceduo_text_cut(&b->out, b->out.length - 2); /* the last comma */
     } else if (a->format == CEDUO_JSON && row) {
         struct json json = {.text = &b->out};
         ceduo_json_open(&json, NULL, '{');
@@ -119,7 +126,7 @@ static enum exit_status open_batch(struct batch *b, const struct arguments *give
     const struct arguments *a = &b->arguments;
     enum exit_status status = ceduo_each_open(&b->each, given);
     if (status == EXIT_DONE)
-        status = ceduo_columns_open(&b->columns, &b->each, a->format == CEDUO_CSV ? choose_csv(a)->columns : NULL);
+        status = ceduo_columns_open(&b->columns, &b->each, ceduo_format_has_columns(a->format) ? choose_csv(a)->columns : NULL);
     if (status == EXIT_DONE && a->format == CEDUO_CSV)
         ceduo_columns_head(&b->columns, &b->head);
     return status == EXIT_DONE && a->resume ? ceduo_resume_open(&b->resume, &b->each, &b->head) : status;
@@ -169,7 +176,7 @@ static enum exit_status write_failed(struct batch *b, uint64_t key, const char *
     LOCAL_TEXT(answer);
     enum exit_status known;
     const struct arguments *a = &b->arguments;
-    if (!b->each.rows || (a->format != CEDUO_CSV && a->format != CEDUO_JSON))
+    if (!b->each.rows || a->format == CEDUO_TABLE)
         return EXIT_DONE;
     append_reason(&b->each, &reason);
     hash_count(&key, hash_bytes(ceduo_text_string(&reason), reason.length));
@@ -240,6 +247,12 @@ static enum exit_status compute_all(struct batch *b, ceduo_batch_answer *answer,
     return status;
 }
 
+static enum exit_status end_features(struct batch *b)
+{
+    ceduo_text_append(&b->out, "\n]}\n");
+    return b->arguments.output ? EXIT_DONE : ceduo_output_next(&b->output, &b->arguments, &b->out);
+}
+
 /* Print the answer of each scene; CSV has one head. */
 enum exit_status ceduo_batch_run(const struct arguments *given)
 {
@@ -265,6 +278,8 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
     if (profiles.count > 0 && !a->output)
         status = worse(status, ceduo_output_write(a, &b.out));
     bool failed = status == EXIT_OUTPUT;
+    if (a->format == CEDUO_GEOJSON && !b.first && !failed)
+        status = worse(status, end_features(&b));
     if (a->resume)
         status = worse(status, ceduo_resume_close(&b.resume, opened && !failed));
     else

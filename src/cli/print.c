@@ -19,7 +19,7 @@ static bool print_figures(const struct arguments *a, const struct ceduo_figure *
 {
     if (a->format == CEDUO_JSON) {
         ceduo_figures_json(out, figures, object, a->details);
-    } else if (a->format == CEDUO_CSV) {
+    } else if (ceduo_format_has_columns(a->format)) {
         ceduo_text_append(out, ""); /* so that an answer without rows prints the header */
         ceduo_csv_rows(out, csv, object);
     }
@@ -37,7 +37,7 @@ static bool judges_years(const struct arguments *a)
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct query q;
-    bool page = a->format == CEDUO_TABLE, stands = a->stands && a->format == CEDUO_CSV;
+    bool page = a->format == CEDUO_TABLE, stands = a->stands && !page;
     ceduo_query_begin(&q, a, file);
     uint64_t rocks = q.question.rocks;
     if (stands) /* --rows stands needs no simulation */

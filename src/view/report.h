@@ -13,7 +13,13 @@
 #include "study/snapshot.h"
 #include "words.h"
 
-enum ceduo_format { CEDUO_TABLE, CEDUO_CSV, CEDUO_JSON };
+enum ceduo_format { CEDUO_TABLE, CEDUO_CSV, CEDUO_JSON, CEDUO_GEOJSON };
+
+/* True for formats with the columns of CSV. */
+static inline bool ceduo_format_has_columns(enum ceduo_format format)
+{
+    return format == CEDUO_CSV || format == CEDUO_GEOJSON;
+}
 
 struct ceduo_page;
 
