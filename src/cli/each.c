@@ -274,6 +274,7 @@ bool ceduo_each_next(struct each *e)
         return false;
     size_t scenes = given->scenes_count;
     ceduo_arena_free(&e->row_arena);
+    e->arguments.number = e->current;
     e->row = e->rows ? &e->rows[e->current / scenes] : NULL;
     e->path = given->scenes[e->current++ % scenes];
     e->name = e->path;

@@ -300,10 +300,10 @@ static const struct option_row rows[] = {
     {"rows", 0, "controls|stands", set_word, MEMBER(stands), MODE_TERMINAL,
      M_CHECK | M_FIND | M_UNCERTAINTY | M_FIT | M_PAGE | M_SURVEY | M_SCREEN, NEEDS_CSV,
      .help = N_("what each row of CSV describes (controls)")},
-    {"each", 0, "ROWS.csv", set_text, MEMBER(each), MODE_TERMINAL, M_FIT | M_PAGE | M_SURVEY | M_SCREEN,
+    {"each", 0, "ROWS.csv", set_text, MEMBER(each), MODE_TERMINAL, M_FIT | M_SURVEY | M_SCREEN,
      .help = N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "
                 "copied")},
-    {"key", 0, "NAME", set_text, MEMBER(key), MODE_TERMINAL, M_FIT | M_PAGE | M_SURVEY | M_SCREEN, NEEDS_EACH,
+    {"key", 0, "NAME", set_text, MEMBER(key), MODE_TERMINAL, M_FIT | M_SURVEY | M_SCREEN, NEEDS_EACH,
      .help = N_("the column of --each that names a row: messages use it, and other copied columns are printed only if --columns "
                 "names them")},
     {"columns", 0, "LIST", set_text, MEMBER(columns), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN,
@@ -330,7 +330,10 @@ static const struct option_row rows[] = {
      .help = N_("show the effect of uncertain inputs on the result; N points (256)"), .lo = 2,
      .hi = CEDUO_UNCERTAINTY_POINTS_MAX},
     {"report", 0, "FILE", set_report, 0, MODE_REPORT, M_CHECK | M_SURVEY,
-     .help = N_("write a report as HTML, with pictures and a chapter for each scene; - is standard output")},
+     .help = N_("write a report as HTML, with pictures and a chapter for each scene; with --each, one page for all rows; - is "
+                "standard output")},
+    {"chapters", 0, "N", set_count, MEMBER(chapters), MODE_TERMINAL, ~(unsigned)M_PAGE, NEEDS_EACH,
+     .help = N_("with --report and --each: add a chapter for each of the N worst rows (0)"), .hi = 1000},
     {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, M_CHECK | M_PAGE | M_SURVEY,
      .help = N_("fit this value to the observations, between LO and HI; may be repeated; -o FILE.yaml writes the first scene "
                 "with the fitted values")},
