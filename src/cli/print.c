@@ -219,11 +219,11 @@ static void append_word(struct text *text, const char *before, const char *word)
 void ceduo_print_command(struct text *text, const struct arguments *a)
 {
     ceduo_text_append(text, "ceduo --report report.html");
-    if (a->each && a->cells == 0)
+    if (a->each && !a->called)
         append_word(text, " --each ", a->each);
-    if (a->key && a->cells == 0)
+    if (a->key && !a->called)
         append_word(text, " --key ", a->key);
-    if (a->chapters > 0 && a->cells == 0)
+    if (a->chapters > 0 && !a->called)
         ceduo_text_format(text, " --chapters %llu", (unsigned long long)a->chapters);
     if (strcmp(_("en"), "en") != 0)
         append_word(text, " --language ", _("en"));

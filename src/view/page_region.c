@@ -184,15 +184,14 @@ static void add_answer(struct ceduo_page *page, const struct ceduo_region *r)
         ceduo_text_format(question, _("Do rocks reach %s?"), r->place ? r->place : _("the place below"));
     else
         ceduo_text_format(question, _("On which lines does the forest protect %s up to %s kJ?"),
-                          r->place ? r->place : _("the place below"), SIG(r->accepted * J_TO_KJ, 4));
+                          r->place ? r->place : _("the place below"), LOCALIZED(r->accepted * J_TO_KJ));
     for (size_t i = 0; i < r->options_count; i++)
         ceduo_page_para(page, CEDUO_PAGE_ANSWER,
-                        _("%s: of %zu lines %zu are not protected, %zu are open, %zu are protected or not reached, and %zu were "
-                          "not judged."),
-                        r->options[i], r->count, count_class(r, i, CEDUO_CLASS_NO), count_class(r, i, CEDUO_CLASS_OPEN),
+                        _("%s: %zu not protected, %zu open, %zu protected or not reached, %zu not judged, of %zu lines."),
+                        r->options[i], count_class(r, i, CEDUO_CLASS_NO), count_class(r, i, CEDUO_CLASS_OPEN),
                         count_class(r, i, CEDUO_CLASS_NOT_REACHED) + count_class(r, i, CEDUO_CLASS_WITHOUT_FOREST) +
                             count_class(r, i, CEDUO_CLASS_FOREST),
-                        count_class(r, i, CEDUO_CLASS_NOT_JUDGED));
+                        count_class(r, i, CEDUO_CLASS_NOT_JUDGED), r->count);
 }
 
 static void add_classes(struct ceduo_page *page, const struct ceduo_region *r)
