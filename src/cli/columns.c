@@ -41,13 +41,14 @@ static void choose(struct columns *c, size_t column, const char *name)
     c->chosen[c->chosen_count++] = (struct chosen_column){column, name};
 }
 
-/* Choose the copied cells, with --key only the key; with --each the state of the row, except `run`; and all of the result. */
+/* Choose the copied cells without the geometry of a feature, with --key only the key; with --each the state of the row, except `run`; and all of the result. */
 static void choose_usual(struct columns *c)
 {
     const struct each *e = c->each;
     size_t n = 0;
     for (size_t i = 0; i < e->heads_count; i++) {
-        if (ceduo_each_is_copied(e, i) && (e->key == NO_KEY || i == e->key))
+        bool geometry = e->given->format == CEDUO_GEOJSON && (e->wkt == NO_COLUMN ? i == e->x || i == e->y : i == e->wkt);
+        if (ceduo_each_is_copied(e, i) && (e->key == NO_COLUMN ? !geometry : i == e->key))
             choose(c, n, c->names[n]);
         n += ceduo_each_is_copied(e, i);
     }
@@ -150,6 +151,7 @@ enum exit_status ceduo_columns_open(struct columns *c, struct each *e, const str
     own = add_columns(c, figures, own);
     const char **names = ceduo_arena_alloc(arena, (own + e->heads_count + 1) * sizeof *names);
     bool *texts = ceduo_arena_alloc(arena, (own + e->heads_count + 1) * sizeof *texts);
+    c->copied = ceduo_arena_alloc(arena, (e->heads_count + 1) * sizeof *c->copied);
     struct named_column *sorted = ceduo_arena_alloc(arena, (own + e->heads_count + 1) * sizeof *sorted);
     for (size_t i = 0; i < own; i++)
         sorted[i] = (struct named_column){c->names[i], i};
@@ -159,7 +161,7 @@ enum exit_status ceduo_columns_open(struct columns *c, struct each *e, const str
         if (!ceduo_each_is_copied(e, i))
             continue;
         bool taken = bsearch(&(struct named_column){name, 0}, sorted, own, sizeof *sorted, compare_names);
-        texts[n] = true;
+        c->copied[n] = i;
         names[n++] = taken ? ceduo_arena_format(arena, "row.%s", name) : name;
     }
     memcpy(names + n, c->names, own * sizeof *names);

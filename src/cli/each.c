@@ -61,7 +61,7 @@ static bool find_key(struct each *e)
     for (size_t i = 0; key && i < e->heads_count; i++)
         if (strcmp(e->heads[i].name, key) == 0)
             e->key = i;
-    if (!key || e->key != NO_KEY)
+    if (!key || e->key != NO_COLUMN)
         return true;
     ceduo_csv_append_heads(&e->table, &names);
     return ceduo_problem(e->table.problems, e->table.source, e->table.head_place.line, 1,
@@ -84,7 +84,7 @@ static bool read_heads(struct each *e)
     if (set == 0)
         return ceduo_problem(t->problems, t->source, t->head_place.line, 1,
                              _("no column changes the scene; name one after a path of --set"));
-    return find_key(e);
+    return find_key(e) && (e->given->format != CEDUO_GEOJSON || ceduo_geometry_find(e));
 }
 
 /* True if a cell is a YAML mapping or list: {mean: 1, spread: 0.2}. */
@@ -113,10 +113,12 @@ static bool check_numbers(const struct each *e)
 static bool check_row(const struct each *e, size_t repeats)
 {
     const struct csv *t = &e->table;
-    struct csv_cell key = e->key == NO_KEY || t->bad ? (struct csv_cell){0} : ceduo_csv_next_cell(t, e->key);
+    struct csv_cell key = e->key == NO_COLUMN || t->bad ? (struct csv_cell){0} : ceduo_csv_next_cell(t, e->key);
     bool good = !t->bad && check_numbers(e);
-    if (good && e->key != NO_KEY && key.n == 0)
+    if (good && e->key != NO_COLUMN && key.n == 0)
         good = ceduo_csv_error(t, key, _("the key '%s' is empty; name each row"), e->given->key);
+    if (good && e->given->format == CEDUO_GEOJSON)
+        good = ceduo_geometry_check(e);
     if (repeats > 0)
         good = ceduo_problem(t->problems, t->source, t->place.line, 1,
                              _("the key '%.*s' is also that of line %zu; give each row its own"), (int)key.n, key.p, repeats);
@@ -161,7 +163,7 @@ static bool read_rows(struct each *e)
 {
     struct csv *t = &e->table;
     for (size_t i = 0; i < e->heads_count; i++)
-        t->heads[i].numeric = e->heads[i].sets == PATH_NUMBER;
+        t->heads[i].numeric |= e->heads[i].sets == PATH_NUMBER;
     ceduo_csv_scan(t);
     if (t->rows == 0)
         return ceduo_problem(t->problems, t->source, 0, 0, _("the table has no row"));
@@ -172,7 +174,7 @@ static bool read_rows(struct each *e)
     while (ceduo_csv_next_row(t)) {
         bool bad = !check_row(e, 0);
         e->bad_rows |= bad;
-        if (!bad && e->key != NO_KEY) {
+        if (!bad && e->key != NO_COLUMN) {
             struct csv_cell key = ceduo_csv_next_cell(t, e->key);
             keys[n++] = (struct row_key){hash_bytes(key.p, key.n), e->rows_count};
         }
@@ -202,7 +204,7 @@ static enum exit_status read_table(struct each *e)
 
 enum exit_status ceduo_each_open(struct each *e, const struct arguments *a)
 {
-    *e = (struct each){.arguments = *a, .given = a, .key = NO_KEY};
+    *e = (struct each){.arguments = *a, .given = a, .key = NO_COLUMN};
     enum exit_status status = a->each ? read_table(e) : EXIT_DONE;
     e->count = a->scenes_count * (a->each ? e->rows_count : 1);
     e->arguments.sets.items = ceduo_arena_alloc(&e->arena, (a->sets.n + e->heads_count + 1) * sizeof *a->sets.items);
@@ -254,7 +256,7 @@ static void read_row(struct each *e, const struct each_row *row)
             e->arguments.label = e->cells[i];
     }
     e->name = ceduo_arena_format(&e->row_arena, "%s:%zu", e->given->each, row->place.line);
-    if (e->key != NO_KEY && e->cells[e->key][0]) {
+    if (e->key != NO_COLUMN && e->cells[e->key][0]) {
         e->name = ceduo_arena_format(&e->row_arena, "%s (%s)", e->name, e->cells[e->key]);
         e->arguments.label = e->cells[e->key];
     }
@@ -272,6 +274,7 @@ bool ceduo_each_next(struct each *e)
         return false;
     size_t scenes = given->scenes_count;
     ceduo_arena_free(&e->row_arena);
+    e->arguments.number = e->current;
     e->row = e->rows ? &e->rows[e->current / scenes] : NULL;
     e->path = given->scenes[e->current++ % scenes];
     e->name = e->path;
@@ -312,19 +315,21 @@ uint64_t ceduo_each_hash(const struct each *e)
 
 /* ---- answers and failures ---- */
 
+void ceduo_each_json_cell(struct json *json, const char *name, const char *cell)
+{
+    double number;
+    if (ceduo_number_read(cell, &number) == CEDUO_NUMBER_GOOD && strcmp(ROUNDTRIP(number), cell) == 0)
+        ceduo_json_number(json, name, number);
+    else
+        ceduo_json_string(json, name, cell[0] ? cell : NULL);
+}
+
 void ceduo_each_json(const struct each *e, struct json *json)
 {
     ceduo_json_open(json, "row", '{');
-    for (size_t i = 0; i < e->heads_count; i++) {
-        const char *name = e->heads[i].name, *cell = e->cells[i];
-        double number;
-        if (!ceduo_each_is_copied(e, i) || (e->key != NO_KEY && i != e->key))
-            continue;
-        if (ceduo_number_read(cell, &number) == CEDUO_NUMBER_GOOD && strcmp(ROUNDTRIP(number), cell) == 0)
-            ceduo_json_number(json, name, number);
-        else
-            ceduo_json_string(json, name, cell[0] ? cell : NULL);
-    }
+    for (size_t i = 0; i < e->heads_count; i++)
+        if (ceduo_each_is_copied(e, i) && (e->key == NO_COLUMN || i == e->key))
+            ceduo_each_json_cell(json, e->heads[i].name, e->cells[i]);
     ceduo_json_close(json, '}');
 }
 
@@ -332,7 +337,7 @@ void ceduo_each_page(const struct each *e, struct text *page)
 {
     ceduo_text_append_escaped(page, e->name);
     for (size_t i = 0; i < e->heads_count; i++)
-        if (ceduo_each_is_copied(e, i) && (e->key == NO_KEY || i == e->key) && e->cells[i][0]) {
+        if (ceduo_each_is_copied(e, i) && (e->key == NO_COLUMN || i == e->key) && e->cells[i][0]) {
             ceduo_text_append(page, " \xc2\xb7 ");
             ceduo_text_append_escaped(page, e->cells[i]);
         }
@@ -344,7 +349,7 @@ void ceduo_each_note_failed(struct each *e)
     const char *label = e->arguments.label;
     if (e->failures++ < NAMES_MAX) {
         ceduo_text_format(&e->failed, e->failures > 1 ? ", %s" : "%s", e->name);
-        if (label && e->key == NO_KEY)
+        if (label && e->key == NO_COLUMN)
             ceduo_text_format(&e->failed, " (%s)", label);
     } else if (e->failures == NAMES_MAX + 1) {
         ceduo_text_append(&e->failed, ", \xe2\x80\xa6");

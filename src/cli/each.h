@@ -16,7 +16,7 @@ struct each_head {
     enum path_value sets; /* kind of the value that it sets; PATH_UNKNOWN: copied */
 };
 
-#define NO_KEY SIZE_MAX
+#define NO_COLUMN SIZE_MAX
 
 /* Decide for each head of the table if its column is set or copied. Report duplicate heads and heads that look like a wrong path, and
  * return false. */
@@ -40,7 +40,8 @@ struct each {
     size_t heads_count, rows_count;
     struct each_head *heads;
     struct each_row *rows; /* NULL: no --each */
-    size_t key;            /* column that names a row; NO_KEY: none */
+    size_t key;            /* column that names a row; NO_COLUMN: none */
+    size_t wkt, x, y;      /* columns of the geometry, if --format geojson needs it; NO_COLUMN: none */
     const char **cells;    /* of the current row, one for each head */
     const struct each_row *row; /* current row; NULL: no --each */
     bool names_files;      /* cells may name files that the scene reads */
@@ -66,6 +67,8 @@ void ceduo_each_note_failed(struct each *each);
 
 /* Append the object "row" with the copied cells. A cell becomes a number only if that prints as the text of the cell. */
 void ceduo_each_json(const struct each *each, struct json *json);
+
+void ceduo_each_json_cell(struct json *json, const char *name, const char *cell);
 
 /* Append a line with the name of the current row, before its page. */
 void ceduo_each_page(const struct each *each, struct text *page);
@@ -96,6 +99,7 @@ struct columns {
     size_t count, copied_count, result_begin;
     const char **names; /* of all columns */
     bool *texts;        /* the column holds text */
+    size_t *copied;     /* column of the table of each copied column */
     size_t capacity, texts_capacity;
     size_t chosen_count;
     struct chosen_column *chosen;
@@ -119,5 +123,19 @@ void ceduo_columns_visit(struct columns *columns, const struct text *lines, cons
 
 /* Append the chosen cells as a line of CSV to `out`, a struct text. */
 void ceduo_columns_print(const struct columns *columns, void *out);
+
+/* ---- geojson.c ---- */
+
+/* Find the columns of the geometry. Report that there are none, and return false. */
+bool ceduo_geometry_find(struct each *each);
+
+/* Append the geometry of the present record. False if it has none. */
+bool ceduo_geometry_print(const struct each *each, struct text *out);
+
+/* As ceduo_geometry_print(), but report an error. */
+bool ceduo_geometry_check(const struct each *each);
+
+/* Append the chosen cells as a feature, followed by a comma and a line end, to `out`, a struct text. */
+void ceduo_geojson_print(const struct columns *columns, void *out);
 
 #endif

@@ -19,7 +19,7 @@ static bool print_figures(const struct arguments *a, const struct ceduo_figure *
 {
     if (a->format == CEDUO_JSON) {
         ceduo_figures_json(out, figures, object, a->details);
-    } else if (a->format == CEDUO_CSV) {
+    } else if (ceduo_format_has_columns(a->format)) {
         ceduo_text_append(out, ""); /* so that an answer without rows prints the header */
         ceduo_csv_rows(out, csv, object);
     }
@@ -37,7 +37,7 @@ static bool judges_years(const struct arguments *a)
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct query q;
-    bool page = a->format == CEDUO_TABLE, stands = a->stands && a->format == CEDUO_CSV;
+    bool page = a->format == CEDUO_TABLE, stands = a->stands && !page;
     ceduo_query_begin(&q, a, file);
     uint64_t rocks = q.question.rocks;
     if (stands) /* --rows stands needs no simulation */
@@ -214,10 +214,17 @@ static void append_word(struct text *text, const char *before, const char *word)
         ceduo_text_append_quoted(text, word);
 }
 
-/* Append the command line with all options that affect the page; not its file name or the threads. */
-static void append_command(struct text *text, const struct arguments *a)
+/* Append the command line with all options that affect the page; not its file name or the threads. A chapter of a region has the
+ * changes of its row. */
+void ceduo_print_command(struct text *text, const struct arguments *a)
 {
     ceduo_text_append(text, "ceduo --report report.html");
+    if (a->each && !a->called)
+        append_word(text, " --each ", a->each);
+    if (a->key && !a->called)
+        append_word(text, " --key ", a->key);
+    if (a->chapters > 0 && !a->called)
+        ceduo_text_format(text, " --chapters %llu", (unsigned long long)a->chapters);
     if (strcmp(_("en"), "en") != 0)
         append_word(text, " --language ", _("en"));
     if (a->rocks > 0)
@@ -234,6 +241,22 @@ static void append_command(struct text *text, const struct arguments *a)
         ceduo_text_format(text, " --sensitivity=%llu", (unsigned long long)a->points);
     for (size_t i = 0; i < a->scenes_count; i++)
         append_word(text, " ", a->scenes[i]);
+}
+
+enum exit_status ceduo_print_line(const struct arguments *a, struct scene_file *file, struct text *out)
+{
+    struct query q;
+    ceduo_query_begin(&q, a, file);
+    if (!a->years)
+        ceduo_query_add_years(&q.question);
+    q.question.run.other_energy = false;
+    enum ceduo_status status = ceduo_query_run(&q);
+    if (status == CEDUO_OK) {
+        const struct ceduo_report report = {.file = file, .result = q.answer.result, .verdict = &q.verdict};
+        ceduo_region_add(a->region, &report, a->label ? a->label : a->called, a->number);
+        ceduo_text_append(out, ""); /* an answer, although the page is printed later */
+    }
+    return ceduo_query_end(&q, file, status);
 }
 
 /* Moderate numbers: a page does not show more digits. */
@@ -257,7 +280,7 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
     if (status == CEDUO_OK) {
         LOCAL_TEXT(command);
         LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
-        append_command(&command, a);
+        ceduo_print_command(&command, a);
         struct ceduo_report report = {.file = file,
                                       .result = q.answer.result,
                                       .verdict = &q.verdict,
