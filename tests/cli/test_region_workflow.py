@@ -77,7 +77,7 @@ def region(f, length=300, rocks=40):
 
 def snakemake(folder, *words, **more):
     """Run the workflow; return its jobs, each by its rule and, if it has one, its piece."""
-    said = command(folder, "snakemake", *(("--profile", "slurm") if SLURM else ("--cores", "2")), *words, **more)
+    said = command(folder, "snakemake", *(words or ("--cores", "2")), **more)
     jobs = re.split(r"(?m)^(?:local)?(?:rule|checkpoint) ", said)[1:]
     return sorted(job.split(":")[0] + "".join(re.findall(r"wildcards: piece=(\S+)", job)) for job in jobs)
 
@@ -217,9 +217,23 @@ def test_killed():
         done, pieces = len(list(to.glob("rows/*.csv"))), len(list(to.glob("pieces/*.csv")))
         expect(0 < done < pieces, f"killed after {done} of {pieces} jobs")
         expect_in("--unlock", command(to, "snakemake", "--cores", "2", status=1), "locked")
-        snakemake(to, "--unlock")
-        jobs = snakemake(to, "--rerun-incomplete")
+        snakemake(to, "--cores", "2", "--unlock")
+        jobs = snakemake(to, "--cores", "2", "--rerun-incomplete")
         expect("valley" not in jobs and "profiles" not in jobs and sum(job.startswith("run") for job in jobs) < pieces, "jobs", jobs)
+        snakemake(other)
+        expect_equal(results(to), results(other), "bytes")
+
+
+def test_slurm():
+    """With --profile slurm each job is one of Slurm"""
+    if not SLURM:
+        raise Skip("tests/slurm.sh starts a Slurm")
+    with Folder() as f, Folder() as g:
+        to, other = region(f), region(g)
+        snakemake(to, "--profile", "slurm")
+        expect_complete(to)
+        logs = [path.parent.name for path in to.glob(".snakemake/slurm_logs/*/*.log")]
+        expect_equal(sorted(logs), sorted(["rule_check", "rule_page", "rule_profiles"] + ["rule_run"] * len(list(to.glob("rows/*.csv")))), "jobs")
         snakemake(other)
         expect_equal(results(to), results(other), "bytes")
 
