@@ -33,7 +33,7 @@ struct ceduo_release {
     struct ceduo_number vx, vz; /* m/s, z upward */
     struct ceduo_number spin;   /* rad/s, positive if it rolls forward in +x */
     bool x_assumed;             /* x is not given: the first vertex */
-    double share;               /* of all rocks, > 0, if there are several releases; they need not add up to 1 */
+    double share;               /* share of all rocks, > 0, if there are several releases; they need not add up to 1 */
 };
 
 /* A place at which passing rocks are counted. */
@@ -181,9 +181,9 @@ struct ceduo_scene {
     struct ceduo_rock_def rock;
     size_t blocks_count;             /* classes that do not overlap; 0: every rock is `rock` */
     struct ceduo_size_class *blocks; /* volumes of `rock`, scaled; results for one rock, such as the ADC, use `rock` */
-    struct ceduo_release release; /* with `releases`, their mean: results for one rock, such as the index, use it */
-    size_t releases_count;        /* 0: every rock starts at `release` */
-    struct ceduo_release *releases; /* each rock draws one of them */
+    struct ceduo_release release;    /* with `releases`, their mean: results for one rock, such as the index, use it */
+    size_t releases_count;           /* 0: every rock starts at `release` */
+    struct ceduo_release *releases;  /* each rock draws one of them */
     struct ceduo_slope slope;
     size_t controls_count;
     struct ceduo_control *controls; /* in the user's order */

@@ -152,7 +152,7 @@ static enum exit_status open_locked(struct resume *r)
 #define BUFFER ((size_t)1 << 16)
 struct reader {
     int fd;
-    size_t length, from, n; /* of the file; begin and length of the buffer */
+    size_t length, from, n; /* bytes of the file; begin and length of the buffer */
     bool failed;            /* with errno set */
     char bytes[BUFFER];
 };
@@ -190,10 +190,10 @@ static const char *read_at(struct reader *reader, size_t offset, size_t wanted, 
 /* True if the file begins with these bytes. */
 static bool begins_with(struct reader *reader, const char *bytes, size_t length)
 {
-    for (size_t at = 0, n; at < length; at += n) {
-        const char *found = read_at(reader, at, 1, &n);
-        n = n < length - at ? n : length - at;
-        if (n == 0 || memcmp(found, bytes + at, n) != 0)
+    for (size_t offset = 0, n; offset < length; offset += n) {
+        const char *found = read_at(reader, offset, 1, &n);
+        n = n < length - offset ? n : length - offset;
+        if (n == 0 || memcmp(found, bytes + offset, n) != 0)
             return false;
     }
     return true;
@@ -254,9 +254,9 @@ static bool read_part(const char *line, size_t n, struct resume_part *part)
 static uint64_t hash_range(struct reader *reader, size_t from, size_t length)
 {
     uint64_t hash = hash_begin(length);
-    for (size_t at = 0, n; at < length; at += n) {
-        const char *bytes = read_at(reader, from + at, 8, &n);
-        n = n >= length - at ? length - at : n - n % 8;
+    for (size_t offset = 0, n; offset < length; offset += n) {
+        const char *bytes = read_at(reader, from + offset, 8, &n);
+        n = n >= length - offset ? length - offset : n - n % 8;
         if (n == 0)
             break;
         hash_chunk(&hash, bytes, n);
@@ -291,7 +291,8 @@ static int compare_parts(const void *a, const void *b)
 /* Find the complete parts of the output, and truncate both files after the last of them. */
 static bool find_parts(struct resume *r, struct reader *output, struct reader *side)
 {
-    size_t offset = r->identity.length, side_end = offset, from = r->head->length, max = (side->length - offset) / PART_LENGTH, n;
+    size_t offset = r->identity.length, side_end = offset, from = r->head->length, max = (side->length - offset) / PART_LENGTH,
+           n;
     struct resume_part part;
     r->old_parts = ceduo_check_memory(calloc(max + 1, sizeof *r->old_parts));
     r->end = from;
@@ -451,9 +452,9 @@ static bool write_parts(const struct resume *r, struct reader *reader, int fd)
         size_t length = part->n;
         for (n = 1; i + n < r->order_count && part[n].from == part->from + length; n++)
             length += part[n].n;
-        for (size_t at = 0, piece; good && at < length; at += piece) {
-            const char *bytes = read_at(reader, part->from + at, 1, &piece);
-            piece = piece < length - at ? piece : length - at;
+        for (size_t offset = 0, piece; good && offset < length; offset += piece) {
+            const char *bytes = read_at(reader, part->from + offset, 1, &piece);
+            piece = piece < length - offset ? piece : length - offset;
             good = piece > 0 && ceduo_file_write_all(fd, bytes, piece, NULL);
         }
     }

@@ -232,16 +232,16 @@ static void follow_cylinder(struct follow *f)
 static void follow_share(struct follow *f)
 {
     const struct ceduo_scene *scene = &f->d->file.scene;
-    double now, others = 0;
+    double now, remaining = 0;
     if (strcmp(f->list, "release") != 0 || strcmp(f->key, "share") != 0 || f->index >= scene->releases_count ||
         ceduo_number_read(f->value, &now) != CEDUO_NUMBER_GOOD || !(now > 0 && now < 1))
         return;
     for (size_t i = 0; i < scene->releases_count; i++)
-        others += i == f->index ? 0 : scene->releases[i].share;
+        remaining += i == f->index ? 0 : scene->releases[i].share;
     for (size_t i = 0; i < scene->releases_count; i++)
         if (i != f->index)
             ceduo_changes_set(&f->changes, ceduo_arena_format(f->arena, "release[%zu].share", i), "%s",
-                              rounded(f, scene->releases[i].share / others * (1 - now), 4));
+                              rounded(f, scene->releases[i].share / remaining * (1 - now), 4));
     if (scene->releases_count > 1)
         ceduo_text_append(&f->followed, _("the other shares follow, so that all add up to 1"));
 }

@@ -45,22 +45,22 @@ ASKED_AT_ONCE(block_fields);
 
 /* ---- release ---- */
 
-#define RELEASE_FIELDS SPREAD("x_m", NAMED(N_("x, m")), MEMBER(ceduo_release, x), "m", -COORDINATE_MAX, COORDINATE_MAX, \
-           FIELD_MEANLESS | FIELD_PLACE, NULL, \
-           N_("where the rock starts; in the slope's coordinates; without it at the first vertex")), \
-    SPREAD("height_m", USUAL(N_("height, m"), 0, 500), MEMBER(ceduo_release, height), "m", 0, 10000, 0, "0", \
-           N_("height of its underside above the ground")), \
-    SPREAD("vx_m_s", USUAL(N_("speed along, m/s"), -60, 60), MEMBER(ceduo_release, vx), "m/s", -1000, 1000, 0, "0", \
-           N_("horizontal speed, positive downslope along x")), \
-    SPREAD("vz_m_s", USUAL(N_("speed upward, m/s"), -60, 60), MEMBER(ceduo_release, vz), "m/s", -1000, 1000, 0, "0", \
-           N_("vertical speed, positive upward")), \
-    SPREAD("spin_rad_s", USUAL(N_("spin, rad/s"), -200, 200), MEMBER(ceduo_release, spin), "rad/s", -10000, 10000, 0, "0", \
-           N_("spin, positive rolling forward; not used by the law lumped"))
+#define RELEASE_FIELDS                                                                                                         \
+    SPREAD("x_m", NAMED(N_("x, m")), MEMBER(ceduo_release, x), "m", -COORDINATE_MAX, COORDINATE_MAX,                           \
+           FIELD_MEANLESS | FIELD_PLACE, NULL,                                                                                 \
+           N_("where the rock starts; in the slope's coordinates; without it at the first vertex")),                           \
+        SPREAD("height_m", USUAL(N_("height, m"), 0, 500), MEMBER(ceduo_release, height), "m", 0, 10000, 0, "0",               \
+               N_("height of its underside above the ground")),                                                                \
+        SPREAD("vx_m_s", USUAL(N_("speed along, m/s"), -60, 60), MEMBER(ceduo_release, vx), "m/s", -1000, 1000, 0, "0",        \
+               N_("horizontal speed, positive downslope along x")),                                                            \
+        SPREAD("vz_m_s", USUAL(N_("speed upward, m/s"), -60, 60), MEMBER(ceduo_release, vz), "m/s", -1000, 1000, 0, "0",       \
+               N_("vertical speed, positive upward")),                                                                         \
+        SPREAD("spin_rad_s", USUAL(N_("spin, rad/s"), -200, 200), MEMBER(ceduo_release, spin), "rad/s", -10000, 10000, 0, "0", \
+               N_("spin, positive rolling forward; not used by the law lumped"))
 static const struct field release_fields[] = {RELEASE_FIELDS};
 static const struct field shared_release_fields[] = {
-    RELEASE_FIELDS,
-    NUMBER("share", NAMED(N_("share")), MEMBER(ceduo_release, share), "", 0, 1, REQUIRED | ABOVE, NULL,
-           N_("share of the rocks that start here; the shares of all releases add up to 1"))};
+    RELEASE_FIELDS, NUMBER("share", NAMED(N_("share")), MEMBER(ceduo_release, share), "", 0, 1, REQUIRED | ABOVE, NULL,
+                           N_("share of the rocks that start here; the shares of all releases add up to 1"))};
 static const struct object shared_release_object = OBJECT(ceduo_release, shared_release_fields, NULL);
 const struct object ceduo_release_object = OBJECT(ceduo_release, release_fields, NULL);
 

@@ -119,8 +119,8 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
     struct ceduo_rock rock;
     enum ceduo_status status = ceduo_rock_from_means(&scene->rock, &rock);
     /* counted lists exist; ceduo_schema_holds() checks the other lists */
-    bool lists = (scene->blocks || scene->blocks_count == 0) && (scene->releases || scene->releases_count == 0) && (scene->controls || scene->controls_count == 0) &&
-                 (scene->options || scene->options_count == 0);
+    bool lists = (scene->blocks || scene->blocks_count == 0) && (scene->releases || scene->releases_count == 0) &&
+                 (scene->controls || scene->controls_count == 0) && (scene->options || scene->options_count == 0);
     for (size_t i = 0; lists && i < scene->options_count; i++)
         lists = scene->options[i].belts || scene->options[i].belts_count == 0;
     if (status == CEDUO_OK && !lists)

@@ -321,12 +321,11 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
 
 /* ---- classes ---- */
 
-/* True if every rock without forest comes to rest near the release. */
+/* True if every rock without forest rests near the release. */
 static bool hardly_moves(const struct ceduo_result *r)
 {
     const struct ceduo_ends *ends = &r->bare.ends;
-    return ends->count[CEDUO_AT_REST] == r->bare.rocks &&
-           ends->stop_max - ceduo_scene_release_last(r->scene) < CEDUO_MOVES_MIN;
+    return ends->count[CEDUO_AT_REST] == r->bare.rocks && ends->stop_max - ceduo_scene_release_last(r->scene) < CEDUO_MOVES_MIN;
 }
 
 enum ceduo_class ceduo_outcome_classify(const struct ceduo_result *r, const struct ceduo_outcome *o, size_t control,

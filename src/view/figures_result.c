@@ -842,7 +842,8 @@ static const struct ceduo_figure rest[] = {
     END};
 
 static const struct ceduo_figure worst_year_columns[] = {
-    {"year", "y", "year of the window with the largest share that exceeds, or arrives without accepted_kJ", .value = worst_year},
+    {"year", "y", "year of the window with the largest share that exceeds, or arrives without accepted_kJ",
+     .value = worst_year},
     {"exceed", "", "share of the released that exceeds accepted_kJ in that year", .value = worst_exceed, .null = NO_LIMIT},
     END};
 static const struct ceduo_figure share_range[] = {

@@ -271,7 +271,7 @@ void ceduo_profiles_free(struct ceduo_profiles *profiles);
 
 /* A region: lines of one scene, each a row of --each. Initialize with zeros; caller frees. */
 struct ceduo_region {
-    const char *title, *place; /* of the first line; place NULL: without name */
+    const char *title, *place; /* as in the first line; place NULL: without name */
     double accepted;
     size_t options_count;
     const char **options; /* names; NULL: no line was computed */
@@ -285,7 +285,7 @@ struct ceduo_region_origin {
     const char *table;
     uint64_t table_hash, run; /* run: of all scenes */
     const char *command;
-    size_t chapters; /* of the worst lines */
+    size_t chapters; /* number of chapters */
 };
 /* Add a line; one that failed, with its reason. `scene`: number for the caller. */
 void ceduo_region_add(struct ceduo_region *region, const struct ceduo_report *report, const char *name, size_t scene);
