@@ -112,7 +112,7 @@ void ceduo_scene_average_releases(struct ceduo_scene *scene)
         means[i]->mean /= shares;
 }
 
-enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)
+enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *bad_control)
 {
     if (!scene)
         return CEDUO_BAD_ARGUMENT;
@@ -143,8 +143,8 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
         return status;
     double last = ceduo_scene_release_last(scene);
     for (size_t i = 0; i < scene->controls_count; i++) {
-        if (where)
-            *where = i;
+        if (bad_control)
+            *bad_control = i;
         if (!(scene->controls[i].x <= end))
             return CEDUO_CONTROL_OFF_SLOPE;
         if (!(scene->controls[i].x > last))

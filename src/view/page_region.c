@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "ceduo/status.h"
 #include "page_parts.h"
 #include "svg.h"
