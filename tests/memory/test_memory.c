@@ -323,14 +323,14 @@ static bool sure(void)
 static void tell(void *context, uint64_t done, uint64_t all)
 {
     (void)context, (void)done, (void)all;
-    note_told(true);
+    count_progress_call(true);
 }
 
 static enum ceduo_status uncertainty_on_two_threads(uint64_t rocks, void (*meanwhile)(void))
 {
     struct ceduo_uncertainty_def def = uncertainty_def(100, rocks);
     def.progress = tell;
-    begin_to_tell(meanwhile, 1);
+    begin_progress(meanwhile, 1);
     return ask_uncertainty(def);
 }
 
@@ -338,16 +338,16 @@ static enum ceduo_status uncertainty_on_two_threads(uint64_t rocks, void (*meanw
  * running at its next call. */
 TEST(progress_calls_never_overlap)
 {
-    assert_int_equal(uncertainty_on_two_threads(1000, others_go_on), CEDUO_OK);
-    assert_int_equal(told.most_inside, 1);
-    assert_true(told.times > 1);
+    assert_int_equal(uncertainty_on_two_threads(1000, wait_for_other_threads), CEDUO_OK);
+    assert_int_equal(progress_calls.inside_max, 1);
+    assert_true(progress_calls.times > 1);
 }
 
 /* A thread without memory stops the others: only a few of 404 evaluations are made. */
 TEST(one_failure_stops_all_threads)
 {
     assert_int_equal(uncertainty_on_two_threads(8, fail_others), CEDUO_NO_MEMORY);
-    assert_true(told.times < 100);
+    assert_true(progress_calls.times < 100);
 }
 
 /* An uncertain input must exist in the scene. */
