@@ -300,12 +300,12 @@ TEST(a_surrogate_weights_its_points)
         EXPECT_NEAR(sums[k] / sizes[k], 0, 1e-9);
 }
 
-static atomic_bool cancel;
+static atomic_bool timer_fired;
 
 static void cancel_on_timer(int number)
 {
     (void)number;
-    atomic_store(&cancel, true);
+    atomic_store(&timer_fired, true);
 }
 
 static double processor_seconds(void)
@@ -330,7 +330,7 @@ TEST(training_can_be_cancelled)
         }
     }
     start = processor_seconds();
-    EXPECT(ceduo_surrogate_train(&g, u, values, N, &cancel), ==, CEDUO_OK);
+    EXPECT(ceduo_surrogate_train(&g, u, values, N, &timer_fired), ==, CEDUO_OK);
     full_time = processor_seconds() - start;
     double before = ceduo_surrogate_evaluate(&g, u);
     for (int i = 0; i < N; i++)
@@ -339,7 +339,7 @@ TEST(training_can_be_cancelled)
     signal(SIGPROF, cancel_on_timer);
     setitimer(ITIMER_PROF, &timer, NULL); /* processor time */
     start = processor_seconds();
-    EXPECT(ceduo_surrogate_train(&g, u, values, N, &cancel), ==, CEDUO_CANCELLED);
+    EXPECT(ceduo_surrogate_train(&g, u, values, N, &timer_fired), ==, CEDUO_CANCELLED);
     EXPECT(processor_seconds() - start, <, full_time / 2);
     EXPECT(ceduo_surrogate_evaluate(&g, u), ==, before);
     free(u);

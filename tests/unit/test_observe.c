@@ -137,7 +137,7 @@ TEST(stops_are_multinomial)
     EXPECT(c.count[2], ==, 0);
     /* 12!/(5!5!2!) ways; 101.5 = 100 + 3/2 */
     EXPECT_NEAR(c.log_likelihood, log(16632) + 5 * log(100.5 / 101.5) + 5 * log(0.5 / 101.5) + 2 * log(0.5 / 101.5), 1e-10);
-    o.from = stop + 1; /* their stops lie outside the surveyed part: no rock counts, and two classes need twenty rocks */
+    o.from = stop + 1; /* simulated stops lie outside the surveyed part: no rock counts, and two classes need twenty rocks */
     o.released_count = 0;
     c = simulate(o);
     EXPECT(c.rocks, ==, 0);

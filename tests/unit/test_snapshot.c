@@ -61,25 +61,25 @@ TEST_WITH(envelopes_lie_beyond_the_release, set_up_index, NULL)
     }
 }
 
-static void expect_run(const struct ceduo_run_snapshot *found, const struct ceduo_run *run)
+static void expect_run(const struct ceduo_run_snapshot *snapshot, const struct ceduo_run *run)
 {
-    assert_non_null(found);
-    assert_int_equal(found->simulated.rocks, ceduo_run_rocks(run));
-    assert_int_equal(found->envelope_rocks, ceduo_run_rocks(run));
+    assert_non_null(snapshot);
+    assert_int_equal(snapshot->simulated.rocks, ceduo_run_rocks(run));
+    assert_int_equal(snapshot->envelope_rocks, ceduo_run_rocks(run));
     for (size_t c = 0; c < 2; c++) {
-        const struct ceduo_arrivals *found = &found->simulated.arrivals[c];
+        const struct ceduo_arrivals *found = &snapshot->simulated.arrivals[c];
         struct ceduo_arrivals a;
         assert_int_equal(ceduo_run_arrivals(run, c, &a), CEDUO_OK);
         EXPECT(a.reached, >, 0);
         assert_int_equal(found->reached, a.reached);
-        assert_int_equal(found->energies[c].n, a.reached);
+        assert_int_equal(snapshot->energies[c].n, a.reached);
         EXPECT_NEAR(found->energy.mean, a.energy.mean, 1e-12 * a.energy.mean);
-        /* Energies are floats. The deviation is that of the values; the mean is not. */
-        EXPECT_NEAR(gsl_stats_sd(found->energies[c].values, 1, a.reached), found->energy.sd, 1e-6 * found->energy.sd);
+        /* Energies are kept as floats. */
+        EXPECT_NEAR(gsl_stats_sd(snapshot->energies[c].values, 1, a.reached), found->energy.sd, 1e-6 * found->energy.sd);
     }
     for (size_t i = 1; i < CEDUO_SNAPSHOT_CELLS; i++)
-        EXPECT(found->envelopes[i].passed, <=, found->envelopes[i - 1].passed);
-    EXPECT(found->envelopes[0].passed, >, 0);
+        EXPECT(snapshot->envelopes[i].passed, <=, snapshot->envelopes[i - 1].passed);
+    EXPECT(snapshot->envelopes[0].passed, >, 0);
 }
 
 TEST_WITH(snapshots_have_the_results_of_the_runs, set_up_stems, NULL)
