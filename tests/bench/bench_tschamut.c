@@ -148,7 +148,7 @@ static void print_fit(struct site *site, const char *question, const char *law, 
     fflush(stdout);
 }
 
-/* Print the number of points that block 1 does not refute, and of those that also predict block 2, the plate, and both. */
+/* Print the number of points that block 1 does not refute, and how many also predict block 2, the plate, and both. */
 static void print_shares(const struct site *site, const char *law, const struct fit *points, size_t n)
 {
     size_t good = 0, second = 0, plate = 0, both = 0;

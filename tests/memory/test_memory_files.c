@@ -199,7 +199,7 @@ static bool format_text(void)
 /* ---- reading ---- */
 
 /* Input to read: a file of the folder, or NULL for a text; its changes. `wrong`: it is refused, with all problems or with a
- * note that some are missing. The causes are faults of a file, an unknown name, valid changes of which one contradicts the
+ * note that some are missing. The causes are faults of a file, an unknown name, valid changes with one that contradicts the
  * rest, and a path that matches two belts. */
 static const struct reading {
     const char *name, *sets[6];

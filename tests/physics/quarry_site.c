@@ -10,7 +10,7 @@
 #include "line_scene.h"
 
 #define PASSAGE_X  60 /* m */
-#define VALUES_MIN 5  /* of each kind of observation */
+#define VALUES_MIN 5  /* per kind of observation */
 
 static const double bounds[QUARRY_VALUES_MAX][2] = {{0.25, 0.5}, {0.75, 0.95}, {0.05, 0.4}, {0.3, 0.7}};
 const char *const quarry_names[QUARRY_VALUES_MAX] = {"rn", "rt", "roughness_rad", "friction"};

@@ -200,9 +200,8 @@ TEST(flights_land_as_without_blocks)
     EXPECT(far, >, 1000); /* chunks were passed */
 }
 
-/* Ground with teeth whose tips lie on one line but for rounding: each is as high as a flight along this line is there
- * without weight, or some last digits higher or lower. Where chunks of segments begin the ground is as deep below
- * everywhere, so that the chords of chunks are parallel to the line. */
+/* Return ground with teeth. Their tips lie on one line, each a few last digits higher or lower. The start of each chunk of
+ * segments lies at the same depth below that line, so that the chords of chunks are parallel to it. */
 static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, double fall, double top)
 {
     const size_t chunk = (size_t)1 << GROUND_BITS;
@@ -222,8 +221,8 @@ static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, 
     return s;
 }
 
-/* Whether a flight that grazes many teeth touches one is for rounding to decide; a chunk that is passed as a whole must
- * not decide it otherwise. That is what the margin of its height is for. */
+/* Rounding decides if a flight that grazes many teeth touches one. Skipping a whole chunk must not change this: the margin of
+ * the chunk's height ensures it. */
 TEST(flights_along_teeth_touch_the_same_with_blocks)
 {
     init_site(CEDUO_LAW_LUMPED, false);

@@ -169,9 +169,9 @@ TEST(chains_stay_within_their_bounds)
 
 /* ---- values to fix ---- */
 
-/* Three values: identified or not, width of each as a share of its bounds, correlations (1 with 0, 2 with 0, 2 with 1). Of two
- * strongly correlated values the one with the wider range is fixed, the closest pair first. One value always stays free;
- * without draws all do. */
+/* Three values: identified or not, width of each as a share of its bounds, correlations (1 with 0, 2 with 0, 2 with 1). If two
+ * values are strongly correlated, the one with the wider range is fixed; the closest pair comes first. One value always stays
+ * free; without draws all do. */
 TEST(unidentified_values_are_fixed)
 {
     static const struct {
@@ -260,7 +260,7 @@ TEST(few_single_values_give_no_range)
 }
 
 #define SAMPLES 400
-#define VALUES  30 /* of each sample */
+#define VALUES  30 /* per sample */
 
 /* 400 lists of values by rocks of another seed, and 400 means of them: p is uniform by Pearson's test with ten classes (9
  * degrees of freedom, level 0.001). */

@@ -57,7 +57,7 @@ static void run_command(struct drawing *d, char *command)
         assert_true(ceduo_frame_true_scale(&d->frame, c, numbers[0], numbers[1], numbers[2], numbers[3]));
     else if (IS("widen"))
         d->frame.left = ceduo_frame_axis_width(&d->frame, c);
-    else if (IS("whole"))
+    else if (IS("integers"))
         d->frame.x_integer = true;
     else if (IS("no-cell"))
         assert_false(ceduo_frame_cell(&d->frame, c, numbers[0], numbers[1], &ints[0], &ints[1]));
@@ -71,7 +71,7 @@ static void run_command(struct drawing *d, char *command)
         ceduo_canvas_rule_y(c, &d->frame, d->role, numbers[0]);
     else if (IS("bar"))
         ceduo_canvas_bar(c, ints[0], ints[1], ints[2], numbers[3], d->role);
-    else if (IS("poly") || IS("stairs") || IS("way"))
+    else if (IS("poly") || IS("stairs") || IS("trajectory"))
         draw_points(d, name, n / 2, numbers);
     else if (IS("start"))
         ceduo_canvas_cloud_start(c);
@@ -87,7 +87,7 @@ static void run_command(struct drawing *d, char *command)
         d->cells_written += ceduo_cells_label(d->cells, ints[0], ints[1], d->role, text);
     else if (IS("right"))
         d->cells_written += ceduo_canvas_label_right(c, ints[0], ints[1], d->role, text);
-    else if (IS("put"))
+    else if (IS("text"))
         d->cells_written += ceduo_canvas_draw_text(c, ints[0], ints[1], ints[2], d->role, text);
     else if (IS("end"))
         d->cells_written += ceduo_cells_label_end(d->cells, ints[0], ints[1], ints[2], d->role, text);

@@ -214,9 +214,9 @@ static double compute_effective_size(size_t run)
     return size;
 }
 
-/* Draws on alternating sides of the mean count no more than independent ones. With four draws on each side, 3 of 15 pairs at
- * lag 1 and 6 of 14 at lag 2 differ, by 2, and the variance is 1: the correlations are 1 - 2·3/15 and 1 - 2·6/14. Correlations
- * at larger lags sum to less than 0 and are left out. */
+/* Draws on alternating sides of the mean count like independent ones. With four draws on each side, 3 of 15 pairs at lag 1 and
+ * 6 of 14 at lag 2 differ, by 2, and the variance is 1: the correlations are 1 - 2·3/15 and 1 - 2·6/14. The sum of correlations
+ * at larger lags is below 0 and is left out. */
 TEST(alternating_draws)
 {
     EXPECT_NEAR(compute_effective_size(1), 32, 1e-12);

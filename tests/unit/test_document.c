@@ -249,7 +249,7 @@ static bool run_step(const char *const cell[TABLE_COLUMNS])
     } else if (IS("save") || IS("lay-out")) {
         in_folder(full, a);
         save_as(*a ? full : path, IS("lay-out"));
-    } else if (IS("walk"))
+    } else if (IS("edit"))
         run_edits(a);
     else if (IS("set"))
         set(a, b);
@@ -280,8 +280,8 @@ static bool run_step(const char *const cell[TABLE_COLUMNS])
         passed = ceduo_document_changed_on_disk(&d) == IS("changed");
     else if (IS("assumed") || IS("known"))
         passed = ceduo_scene_assumes_value(&d.file, a) == IS("assumed");
-    else if (IS("there") || IS("none"))
-        passed = (node != NULL) == IS("there");
+    else if (IS("exists") || IS("missing"))
+        passed = (node != NULL) == IS("exists");
     else if (IS("text"))
         passed = node && strcmp(node->text, b) == 0;
     else if (IS("number"))
@@ -293,7 +293,7 @@ static bool run_step(const char *const cell[TABLE_COLUMNS])
         passed = d.file.scene.slope.vertices == i;
     else if (IS("inputs"))
         passed = d.file.inputs_count == i;
-    else if (IS("seen-through")) /* option and name */
+    else if (IS("observed-through")) /* option and name */
         passed = i < d.file.observations_count && d.file.observations[i].option == k &&
                  (!*cell[3] || strcmp(d.file.observations[i].name, cell[3]) == 0);
     else if (IS("remember"))
@@ -316,8 +316,8 @@ static bool run_step(const char *const cell[TABLE_COLUMNS])
 TEST(documents_pass_their_steps)
 {
     const char *sections =
-        "comments|base|less|more|slope|wrong|items|names|undo|branch|copy|source|source of a file|source of what moves|disk|"
-        "elsewhere 1|elsewhere 2|elsewhere 3|elsewhere 4|beside|profile|typed";
+        "comments|base|deleted key|added key|slope|invalid|items|names|undo|branch|copy|source|source of a file|"
+        "source of moved items|disk|other folder 1|other folder 2|other folder 3|other folder 4|next folder|profile|typed";
     for (char section[64]; next_word(&sections, section);) {
         assert_int_equal(set_up(NULL), 0);
         for (TABLE(row, "unit/documents.txt", section))

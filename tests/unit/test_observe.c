@@ -109,7 +109,7 @@ TEST(a_count_is_binomial)
     EXPECT_NEAR(c.deviance, 2 * (3 * log(0.75 / p) + log(0.25 / (1 - p))), 1e-12);
 }
 
-/* Return where all rocks stop: v²/(2 g mu) beyond the point where they strike the ground. */
+/* Return x of the stop of all rocks: v²/(2 g mu) beyond the point of the first contact. */
 static double rest_x(void)
 {
     double v = SPEED;
@@ -166,7 +166,7 @@ TEST(lists_are_binned_at_their_quantiles)
     for (int i = 0; i < 20; i++)
         two_values[i] = i < 18 ? 30 : 31;
     struct ceduo_observation_fit c =
-        simulate(observe_stops(20, two_values)); /* of four classes only those with different bounds remain */
+        simulate(observe_stops(20, two_values)); /* only two of four classes have bounds of their own */
     EXPECT(c.classes, ==, 2);
     EXPECT(c.observed[0], ==, 18);
     EXPECT(c.observed[1], ==, 2);
@@ -490,7 +490,7 @@ TEST(scars_are_counted_and_measured)
     ceduo_record_release(&record);
 }
 
-/* Stems as strong as rock: a rock lies where a stem stopped it. */
+/* Stems as strong as rock: a rock lies at the stem that stopped it. */
 TEST(rocks_lie_where_stems_stop_them)
 {
     const struct ceduo_stems tree = {.per_ha = 1e5, .dbh = 1, .height = 15, .volume = 10, .age = NAN};

@@ -307,7 +307,7 @@ TEST(tables_of_stools_have_a_limit)
     site.plots[0].shoots.per_ha = 1e10;
     site.belts[0].stand.spacing = 20;
     assert_true(ceduo_wood_init(&wood, simulation, &site.option, &rock));
-    assert_int_equal(wood.met_mask, ((size_t)1 << 20) - 1); /* more than the million stems of a way */
+    assert_int_equal(wood.met_mask, ((size_t)1 << 20) - 1); /* more than a million stems on one trajectory */
     ceduo_wood_release(&wood);
 }
 

@@ -241,7 +241,7 @@ TEST_WITH(longer_runs_are_read_again, set_up_stems, NULL)
     assert_int_equal(second->wooded[0]->simulated.rocks, 301);
 }
 
-/* A trajectory starts and ends where its rock does, and is never far below the ground. */
+/* A trajectory has the start and the end of its rock, and is never far below the ground. */
 TEST_WITH(trajectories_follow_the_rocks, set_up_stems, NULL)
 {
     LOCAL(ceduo_pool, pool) = make_pool(20);

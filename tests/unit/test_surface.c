@@ -44,7 +44,7 @@ static struct ceduo_surface_fit fit_function(function *f, size_t n, size_t point
     for (size_t p = 0; p < points && last_constant; p++)
         u[p * n + n - 1] = .5;
     double constants[CEDUO_SURFACE_GROUPS];
-    for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++) /* of each group */
+    for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++) /* added to all values of a group */
         constants[g] = level > 0 ? level * line_normal(&random) : g - (CEDUO_SURFACE_GROUPS - 1) / 2.;
     for (size_t p = 0; p < points; p++)
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
@@ -506,8 +506,7 @@ static double value_at_share(double share)
 }
 
 /* Coverage of 95 % intervals over many seeds: with and without a part that no surface fits, and with noise common to all points
- * or of each. Coverage is 95 % if the points sample that part no more evenly than random points would, and higher if they
- * do. */
+ * or of each. Coverage is 95 % if the points sample that part like random points, and higher if they sample it more evenly. */
 TEST(errors_of_the_range_cover)
 {
     static const struct {

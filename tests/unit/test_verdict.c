@@ -177,7 +177,7 @@ struct made_results {
     struct ceduo_difference differences[OPTIONS];
     struct ceduo_alternative_energy others[OPTIONS];
     struct ceduo_option_result found[OPTIONS];
-    struct ceduo_stand_result stands[2]; /* of the belts of each option */
+    struct ceduo_stand_result stands[2]; /* for the belts of each option */
     struct ceduo_result result;
     struct ceduo_year year[OPTIONS];
     struct ceduo_index index;
