@@ -173,9 +173,9 @@ static double run_plain(const struct paper_site *site, struct slow_def def, stru
     double start = ceduo_clock();
     for (uint64_t rock = 0; rock < rocks; rock++) {
         begin(s, rock, &def);
-        const struct slow_way way = slow_walk(&def);
-        if (way.crossing.reached)
-            sum += s->energies[s->n++] = plain_energy(&body, &way.crossing);
+        const struct slow_trajectory trajectory = slow_walk(&def);
+        if (trajectory.crossing.reached)
+            sum += s->energies[s->n++] = plain_energy(&body, &trajectory.crossing);
     }
     double seconds = ceduo_clock() - start;
     size_t exceeded = 0;

@@ -66,13 +66,14 @@ static double time_plain(struct site *site, uint64_t rocks, size_t repeat)
     site->plain.context = &random;
     double start = ceduo_clock();
     for (uint64_t i = 0; i < rocks; i++) {
-        const struct slow_way way = slow_walk(&site->plain);
+        const struct slow_trajectory trajectory = slow_walk(&site->plain);
         sums->rocks++;
-        sums->contacts += way.contacts;
-        sums->contacts2 += (double)(way.contacts * way.contacts);
-        if (!way.crossing.reached)
+        sums->contacts += trajectory.contacts;
+        sums->contacts2 += (double)(trajectory.contacts * trajectory.contacts);
+        if (!trajectory.crossing.reached)
             continue;
-        double speed = hypot(way.crossing.vx, way.crossing.vz), energy = plain_energy(&rock, &way.crossing);
+        double speed = hypot(trajectory.crossing.vx, trajectory.crossing.vz),
+               energy = plain_energy(&rock, &trajectory.crossing);
         sums->passed++;
         sums->speed += speed;
         sums->speed2 += speed * speed;

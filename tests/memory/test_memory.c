@@ -483,22 +483,22 @@ static void make_roll(void)
     }
 }
 
-static bool follow_seventh(struct ceduo_trajectory *way)
+static bool follow_seventh(struct ceduo_trajectory *trajectory)
 {
-    enum ceduo_status status = ceduo_trajectory_run(&site.scene, &site.option, 7, NULL, way, NULL);
+    enum ceduo_status status = ceduo_trajectory_run(&site.scene, &site.option, 7, NULL, trajectory, NULL);
     if (status == CEDUO_OK)
-        add(&way->x, sizeof way->x);
+        add(&trajectory->x, sizeof trajectory->x);
     return is_done(status);
 }
 
 static bool follow_roll(void)
 {
     make_roll();
-    struct ceduo_trajectory way;
-    bool done = follow_seventh(&way);
+    struct ceduo_trajectory trajectory;
+    bool done = follow_seventh(&trajectory);
     if (done) {
-        assert_true(way.end == CEDUO_LEFT_SLOPE && way.stems_hit > 100);
-        add(&way.stems_hit, sizeof way.stems_hit);
+        assert_true(trajectory.end == CEDUO_LEFT_SLOPE && trajectory.stems_hit > 100);
+        add(&trajectory.stems_hit, sizeof trajectory.stems_hit);
     }
     return done;
 }
@@ -520,8 +520,8 @@ static bool record_roll(void)
 static bool follow_one(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_trajectory way;
-    return follow_seventh(&way);
+    struct ceduo_trajectory trajectory;
+    return follow_seventh(&trajectory);
 }
 
 static bool follow(void)
@@ -530,11 +530,11 @@ static bool follow(void)
     LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&site.scene, &site.option);
     bool good = f;
     for (uint64_t rock = 0; rock < 3 && good; rock++) {
-        struct ceduo_trajectory way;
+        struct ceduo_trajectory trajectory;
         struct ceduo_crossing crossing;
-        good = is_done(ceduo_tracer_run(f, rock, NULL, &way, &crossing));
+        good = is_done(ceduo_tracer_run(f, rock, NULL, &trajectory, &crossing));
         if (good)
-            add(&way.x, sizeof way.x);
+            add(&trajectory.x, sizeof trajectory.x);
     }
     return good;
 }

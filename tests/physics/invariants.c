@@ -225,21 +225,22 @@ static bool is_creeping(const struct checker *w)
 
 void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_tally *tally)
 {
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     struct ceduo_crossing crossing = {0};
     struct checker w = {.scene = s, .smooth = is_smooth(s)};
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
     assert_int_equal(ceduo_rock_from_means(&s->scene.rock, &w.rock), CEDUO_OK);
     if (s->scene.simulation.law == CEDUO_LAW_ARM) { /* the section is drawn */
-        assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11, NULL, &way, NULL), CEDUO_OK);
-        w.rock = way.rock;
+        assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11, NULL, &trajectory, NULL), CEDUO_OK);
+        w.rock = trajectory.rock;
     }
     w.k = s->scene.simulation.law == CEDUO_LAW_LUMPED ? 0 : w.rock.k;
     assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11,
-                                          &(struct ceduo_trajectory_callbacks){.piece = check_segment, .context = &w}, &way,
-                                          &crossing),
+                                          &(struct ceduo_trajectory_callbacks){.piece = check_segment, .context = &w},
+                                          &trajectory, &crossing),
                      CEDUO_OK);
-    if (w.bad || !isfinite(way.x + way.z) || (w.pieces > 0 && (way.x != w.last.x1 || way.z != w.last.z1)))
+    if (w.bad || !isfinite(trajectory.x + trajectory.z) ||
+        (w.pieces > 0 && (trajectory.x != w.last.x1 || trajectory.z != w.last.z1)))
         fail_msg("scene %ju: not a number, or a gap in the way", (uintmax_t)number);
     expect_number(number, "energy of a flight changes by", w.energy_off, ENERGY);
     expect_number(number, "a contact gains", w.gain, ENERGY);
@@ -249,15 +250,15 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     expect_number(number, "metres below the ground:", w.under, fmax(UNDER, UNDER_SIZE * w.size));
     expect_crossing(number, &crossing);
     double end = s->x[s->scene.slope.vertices - 1];
-    if (way.end == CEDUO_LEFT_SLOPE && way.x != 0 && way.x != end)
-        fail_msg("scene %ju: left the slope at %g", (uintmax_t)number, way.x);
-    bool crack = way.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MAX / 2;
-    if (way.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack && !is_creeping(&w))
+    if (trajectory.end == CEDUO_LEFT_SLOPE && trajectory.x != 0 && trajectory.x != end)
+        fail_msg("scene %ju: left the slope at %g", (uintmax_t)number, trajectory.x);
+    bool crack = trajectory.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MAX / 2;
+    if (trajectory.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack && !is_creeping(&w))
         fail_msg("scene %ju: unfinished", (uintmax_t)number);
-    tally->last = way;
-    tally->ends[way.end]++;
+    tally->last = trajectory;
+    tally->ends[trajectory.end]++;
     tally->cracks += crack;
-    tally->contacts += way.contacts;
+    tally->contacts += trajectory.contacts;
     tally->pieces += w.pieces;
     tally->flights += w.flights;
     tally->impacts += w.impacts;

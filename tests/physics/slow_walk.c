@@ -21,7 +21,7 @@ struct touch {
 
 struct walker {
     const struct slow_def *def;
-    struct slow_way *way;
+    struct slow_trajectory *trajectory;
     const struct slow_segment *at; /* current segment, or the one under the release */
     bool on_ground;
     bool rolled; /* true if it reached this contact rolling */
@@ -154,7 +154,7 @@ static void set_velocity(struct walker *w, struct slow_turn a, slow_real tangent
 
 static enum todo end(struct walker *w, enum slow_end how)
 {
-    w->way->end = how;
+    w->trajectory->end = how;
     return TODO_NOTHING;
 }
 
@@ -163,12 +163,12 @@ static enum todo end(struct walker *w, enum slow_end how)
 /* True if the control lies in (x, to] and has not been crossed. A trajectory back has to < x and crosses nothing. */
 static bool crosses(const struct walker *w, slow_real to)
 {
-    return !w->way->crossing.reached && w->def->control > w->x && w->def->control <= to;
+    return !w->trajectory->crossing.reached && w->def->control > w->x && w->def->control <= to;
 }
 
 static void record(struct walker *w, slow_real vx, slow_real vz, slow_real spin, slow_real height)
 {
-    w->way->crossing = (struct slow_crossing){true, (double)vx, (double)vz, (double)spin, (double)height};
+    w->trajectory->crossing = (struct slow_crossing){true, (double)vx, (double)vz, (double)spin, (double)height};
 }
 
 static void record_flight(struct walker *w, slow_real to)
@@ -273,7 +273,7 @@ static enum todo fly_to_contact(struct walker *w)
 /* Return the facet that is hit. */
 static struct slow_turn facet(const struct walker *w)
 {
-    const slow_real u = w->def->uniform(w->def->context, w->way->contacts), max = w->at->theta_max;
+    const slow_real u = w->def->uniform(w->def->context, w->trajectory->contacts), max = w->at->theta_max;
     const slow_real angle = w->def->facets == SLOW_BOTH ? max * (2 * u - 1) : along(w, w->at->turn) >= 0 ? max * u : -max * u;
     const struct slow_turn turned = facet_turn(w->at->angle + angle);
     return outward(w, turned) > 0 ? w->at->turn : turned; /* a rock cannot hit a face from which it moves away */
@@ -350,7 +350,7 @@ static enum todo roll_or_fly(struct walker *w)
 static enum todo contact(struct walker *w)
 {
     const struct slow_def *def = w->def;
-    if (w->way->contacts >= def->max_contacts)
+    if (w->trajectory->contacts >= def->max_contacts)
         return end(w, SLOW_UNFINISHED);
     const struct walker before = *w;
     apply_law(w, facet(w));
@@ -362,7 +362,7 @@ static enum todo contact(struct walker *w)
         w->vz = before.vz;
         w->spin = before.spin;
     }
-    w->way->contacts++;
+    w->trajectory->contacts++;
     if (def->on_contact)
         def->on_contact(def->context, (double)w->x, (double)w->z, (double)w->vx, (double)w->vz, (double)w->spin);
     return next;
@@ -489,9 +489,9 @@ static enum todo stand(struct walker *w)
 {
     if (is_at_rest(w))
         return end(w, SLOW_REST);
-    if (w->way->contacts >= w->def->max_contacts)
+    if (w->trajectory->contacts >= w->def->max_contacts)
         return end(w, SLOW_UNFINISHED);
-    w->way->contacts++; /* the new roll from rest, so that no trajectory continues uncounted */
+    w->trajectory->contacts++; /* the new roll from rest, so that no trajectory continues uncounted */
     return TODO_ROLL;
 }
 
@@ -523,17 +523,17 @@ static enum todo release(struct walker *w)
     return TODO_FLIGHT;
 }
 
-struct slow_way slow_walk(const struct slow_def *def)
+struct slow_trajectory slow_walk(const struct slow_def *def)
 {
     static enum todo (*const steps[])(struct walker *) = {
         [TODO_CONTACT] = contact, [TODO_FLIGHT] = fly_to_contact, [TODO_ROLL] = roll, [TODO_STAND] = stand};
-    struct slow_way way = {.contacts = 0};
-    struct walker w = {.def = def, .way = &way, .x = def->x0, .z = def->z0, .vx = def->vx0, .vz = def->vz0};
+    struct slow_trajectory trajectory = {.contacts = 0};
+    struct walker w = {.def = def, .trajectory = &trajectory, .x = def->x0, .z = def->z0, .vx = def->vx0, .vz = def->vz0};
     w.spin = def->law == SLOW_CRSP ? (slow_real)def->spin0 : 0;
     enum todo todo = release(&w);
     while (todo != TODO_NOTHING)
         todo = steps[todo](&w);
-    way.x = (double)w.x;
-    way.z = (double)w.z;
-    return way;
+    trajectory.x = (double)w.x;
+    trajectory.z = (double)w.z;
+    return trajectory;
 }

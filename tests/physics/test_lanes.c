@@ -456,8 +456,8 @@ static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
                                  .context = &facets,
                                  .max_contacts = CEDUO_CONTACTS_MAX,
                                  .control = scene->controls[0].x};
-    const struct slow_way way = slow_walk(&def);
-    return way.crossing.reached ? hypot(way.crossing.vx, way.crossing.vz) : NAN;
+    const struct slow_trajectory trajectory = slow_walk(&def);
+    return trajectory.crossing.reached ? hypot(trajectory.crossing.vx, trajectory.crossing.vz) : NAN;
 }
 
 /* Trajectories are chaotic: the rounding of doubles may change one in a hundred (test_slow_walk.c). */

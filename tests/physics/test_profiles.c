@@ -46,7 +46,7 @@ static void init_site(enum ceduo_law law, bool friction_bound)
     site.scene.simulation.law = law;
 }
 
-static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_scene *b)
+static void expect_same_trajectories(const struct ceduo_scene *a, const struct ceduo_scene *b)
 {
     LOCAL(ceduo_tracer, f) = ceduo_tracer_create(a, NULL);
     LOCAL(ceduo_tracer, g) = ceduo_tracer_create(b, NULL);
@@ -77,7 +77,7 @@ TEST(a_cut_slope_gives_the_same_trajectories_and_statistics)
         assert_int_equal(segments_inside(&fine), PAPER_SEGMENTS);
         struct ceduo_scene scene = site.scene;
         scene.slope = fine;
-        expect_same_ways(&site.scene, &scene);
+        expect_same_trajectories(&site.scene, &scene);
         struct ceduo_arrivals a = arrivals(&site.scene), b = arrivals(&scene);
         EXPECT(a.reached, ==, b.reached);
         EXPECT_SAME(a.speed, b.speed, mean, se);
@@ -98,7 +98,7 @@ TEST(a_cut_slope_keeps_spreads_and_roughness_heights)
     LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 5000);
     struct ceduo_scene scene = site.scene;
     scene.slope = fine;
-    expect_same_ways(&site.scene, &scene);
+    expect_same_trajectories(&site.scene, &scene);
 }
 
 /* Deviations from a line that a double can resolve stay: vertices moved by a nanometre, and a sliver as steep as it is

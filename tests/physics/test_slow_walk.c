@@ -53,16 +53,17 @@ static void note_piece(void *context, const struct ceduo_trajectory_segment *p)
 
 static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct trace *t)
 {
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     struct ceduo_crossing c;
     memset(t, 0, sizeof *t);
     assert_int_equal(ceduo_trajectory_run(scene, NULL, rock,
-                                          &(struct ceduo_trajectory_callbacks){.piece = note_piece, .context = t}, &way, &c),
+                                          &(struct ceduo_trajectory_callbacks){.piece = note_piece, .context = t}, &trajectory,
+                                          &c),
                      CEDUO_OK);
-    t->contacts = way.contacts;
-    t->end = way.contacts > CONTACTS ? -1 : (int)way.end;
-    t->x = way.x;
-    t->z = way.z;
+    t->contacts = trajectory.contacts;
+    t->end = trajectory.contacts > CONTACTS ? -1 : (int)trajectory.end;
+    t->x = trajectory.x;
+    t->z = trajectory.z;
     t->reached = c.reached;
     memcpy(t->crossing, (double[4]){c.vx, c.vz, c.spin, c.height}, sizeof t->crossing);
 }
@@ -133,13 +134,13 @@ static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct li
                                  .max_contacts = CONTACTS,
                                  .control = scene->controls_count > 0 ? scene->controls[0].x : NAN,
                                  .on_contact = note_contact};
-    const struct slow_way way = slow_walk(&def);
-    const struct slow_crossing *c = &way.crossing;
+    const struct slow_trajectory trajectory = slow_walk(&def);
+    const struct slow_crossing *c = &trajectory.crossing;
     static const int ends[] = {[SLOW_REST] = CEDUO_AT_REST, [SLOW_LEFT] = CEDUO_LEFT_SLOPE, [SLOW_UNFINISHED] = -1};
-    t->end = ends[way.end];
-    t->contacts = t->end < 0 ? CONTACTS + 1 : way.contacts;
-    t->x = way.x;
-    t->z = way.z;
+    t->end = ends[trajectory.end];
+    t->contacts = t->end < 0 ? CONTACTS + 1 : trajectory.contacts;
+    t->x = trajectory.x;
+    t->z = trajectory.z;
     t->reached = c->reached;
     memcpy(t->crossing, (double[4]){c->vx, c->vz, c->spin, c->height}, sizeof t->crossing);
 }

@@ -491,12 +491,12 @@ TEST(unfinished_blocks_count_with_their_weights)
     const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
     double all = 0, squares = 0, unfinished = 0;
     for (uint64_t r = 0; r < ROCKS; r++) {
-        struct ceduo_trajectory way;
+        struct ceduo_trajectory trajectory;
         struct ceduo_crossing crossing;
-        assert_int_equal(ceduo_tracer_run(f, r, NULL, &way, &crossing), CEDUO_OK);
+        assert_int_equal(ceduo_tracer_run(f, r, NULL, &trajectory, &crossing), CEDUO_OK);
         all += weights[r];
         squares += weights[r] * weights[r];
-        unfinished += way.end == CEDUO_UNFINISHED ? weights[r] : 0;
+        unfinished += trajectory.end == CEDUO_UNFINISHED ? weights[r] : 0;
     }
     ROWS(EXPECT, (a.reached, ==, 0), (a.unfinished, >, ROCKS / 4), (a.unfinished, <, ROCKS * 3 / 4));
     EXPECT(fabs(unfinished / all - (double)a.unfinished / ROCKS), >, .01); /* weights matter */

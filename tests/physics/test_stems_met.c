@@ -55,7 +55,7 @@ TEST(a_rolling_rock_meets_the_same_stems_and_continues_unchanged)
     expect_plot(&plot_rates[0], 1000, "rolling");
     assert_int_equal(ceduo_trajectory_run(&plane.line.scene, NULL, 0, NULL, &bare, NULL), CEDUO_OK);
     /* a hit leaves the remaining length R of a roll */
-    assert_int_equal(sweep.way.contacts, bare.contacts);
+    assert_int_equal(sweep.trajectory.contacts, bare.contacts);
     assert_int_equal(bare.contacts, ceil(520 / (B / 2)));
 }
 
@@ -129,7 +129,7 @@ TEST(the_probability_to_meet_no_stem_in_ten_metres_is_croftons)
     clear_plane(20);
     plant_plot(1, 5, 15);
     for (SWEEP(rock, rocks)) {
-        free_runs += sweep.way.stems_hit == 0;
+        free_runs += sweep.trajectory.stems_hit == 0;
     }
     expect_share("nothing met of those centred in 10 m", free_runs, rocks, exp(-10 / 2.16747));
     EXPECT_NEAR(exp(-10 / 2.16747), .00992, .5e-5);
@@ -298,12 +298,12 @@ TEST(diameters_without_spread_change_nothing)
         plant_plot(1, 10, 510);
         sweep_one(rock);
         size_t n = sweep.count;
-        struct ceduo_trajectory way = sweep.way;
+        struct ceduo_trajectory trajectory = sweep.trajectory;
         memcpy(plain, sweep.stems, n * sizeof *plain);
         plane.trees[0][0].dbh_sd = plane.shoots[0][0].dbh_sd = 0;
         sweep_one(rock);
         expect_same_stems(plain, n);
-        assert_memory_equal(&way, &sweep.way, sizeof way);
+        assert_memory_equal(&trajectory, &sweep.trajectory, sizeof trajectory);
         plane.trees[0][0].dbh_sd = 1e-9;
         sweep_one(rock);
         assert_int_equal(n, sweep.count);

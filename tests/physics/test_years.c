@@ -326,9 +326,9 @@ static void add_year(struct by_hand *to, const struct ceduo_years *years, size_t
     assert_non_null(f);
     for (uint64_t r = 0; r < SUMMED; r++) {
         struct ceduo_crossing at[CONTROLS];
-        struct ceduo_trajectory way;
-        assert_int_equal(ceduo_tracer_run(f, r, NULL, &way, at), CEDUO_OK);
-        double energy = at[c].reached ? read_energy(&way.rock, &at[c]) : 0;
+        struct ceduo_trajectory trajectory;
+        assert_int_equal(ceduo_tracer_run(f, r, NULL, &trajectory, at), CEDUO_OK);
+        double energy = at[c].reached ? read_energy(&trajectory.rock, &at[c]) : 0;
         bool above = at[c].reached && energy > accepted;
         reach += at[c].reached;
         exceed += above;

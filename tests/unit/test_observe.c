@@ -384,15 +384,15 @@ TEST(runs_are_shared)
     o[2].release = &slow;
     o[5].option = 1;
     double seconds[6] = {1, 1, 2, 1, 0.5, 1};
-    for (int way = 0; way < 2; way++) {
+    for (int pass = 0; pass < 2; pass++) {
         LOCAL(ceduo_observer, observer);
-        if (way == 1)
+        if (pass == 1)
             g.scene.simulation.contact_model = CEDUO_INDEX;
         EXPECT(ceduo_observer_create(o, 6, &observer), ==, CEDUO_OK);
         EXPECT(ceduo_observer_simulate(observer, &g.scene, ROCKS, NULL, c), ==, CEDUO_OK);
         for (int i = 0; i < 6; i++) {
             double v = i == 2 ? SPEED / 2 : SPEED, speed2 = v * v + GRAVITY * GRAVITY * seconds[i] * seconds[i];
-            if (i == 5 && way == 0)
+            if (i == 5 && pass == 0)
                 EXPECT(c[i].rocks, ==, 0); /* stopped by stems */
             else
                 EXPECT_NEAR(c[i].mean, i == 3 ? sqrt(speed2) : rock_mass() / (i == 1 ? 8 : 1) * speed2 / 2, 1e-6);

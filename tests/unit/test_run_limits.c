@@ -64,17 +64,17 @@ TEST(callbacks_change_nothing)
     site.plots[0].shoots.height = site.plots[1].trees.height = .3; /* the rock flies over some */
     for (uint64_t rock = 0; rock < 60; rock++) {
         const struct ceduo_option *option = rock % 2 == 0 ? &site.option : NULL;
-        struct ceduo_trajectory alone, way;
+        struct ceduo_trajectory alone, trajectory;
         assert_int_equal(ceduo_trajectory_run(&site.scene, option, rock, NULL, &alone, NULL), CEDUO_OK);
         for (int i = 0; i < 4; i++) {
             seen = 0;
-            assert_int_equal(ceduo_trajectory_run(&site.scene, option, rock, &watches[i], &way, NULL), CEDUO_OK);
-            EXPECT(way.x, ==, alone.x);
-            EXPECT(way.z, ==, alone.z);
-            EXPECT(way.end, ==, alone.end);
-            EXPECT(way.contacts, ==, alone.contacts);
-            EXPECT(way.stems_hit, ==, alone.stems_hit);
-            EXPECT(way.stems_drawn, ==, alone.stems_drawn);
+            assert_int_equal(ceduo_trajectory_run(&site.scene, option, rock, &watches[i], &trajectory, NULL), CEDUO_OK);
+            EXPECT(trajectory.x, ==, alone.x);
+            EXPECT(trajectory.z, ==, alone.z);
+            EXPECT(trajectory.end, ==, alone.end);
+            EXPECT(trajectory.contacts, ==, alone.contacts);
+            EXPECT(trajectory.stems_hit, ==, alone.stems_hit);
+            EXPECT(trajectory.stems_drawn, ==, alone.stems_drawn);
             assert_int_equal(seen % 1000000 > 0, i < 2);
             EXPECT(seen / 1000000, >=, (i % 2 == 0 ? alone.stems_hit : 0));
             assert_true(i % 2 == 0 || seen < 1000000);
