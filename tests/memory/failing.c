@@ -197,17 +197,17 @@ void wait_for_other_threads(void)
     wait_for_others(500);
 }
 
-bool run_task(task *work, unsigned long at, bool on)
+bool run_task(task *work, unsigned long at, bool all_later)
 {
     found = 0xcbf29ce484222325u;
     calls = 0;
     live = 0;
     fail_at = at;
-    fail_on = on;
+    fail_on = all_later;
     bool done = work();
     fail_at = 0;
     if (live != 0)
-        fail_msg("allocation %lu%s: %ld are not freed", at, on ? " and all that follow" : "", (long)live);
+        fail_msg("allocation %lu%s: %ld are not freed", at, all_later ? " and all that follow" : "", (long)live);
     return done;
 }
 
@@ -226,13 +226,14 @@ void without_memory(task *work)
     unsigned long failed = 0, tried = 0;
     bool each = FULL_OR(all < CALLS_FEW, false);
     for (unsigned long at = 1; at <= all; at++)
-        for (int on = 0; on < 2 && (each || count_same_paths(at, 1, at) < 2 || count_same_paths(at, at + 1, all + 1) == 0);
-             on++) {
-            bool done = run_task(work, at, on);
+        for (int all_later = 0;
+             all_later < 2 && (each || count_same_paths(at, 1, at) < 2 || count_same_paths(at, at + 1, all + 1) == 0);
+             all_later++) {
+            bool done = run_task(work, at, all_later);
             failed += !done;
             tried++;
             if (done && found != wanted)
-                fail_msg("allocation %lu%s: another result", at, on ? " and all that follow" : "");
+                fail_msg("allocation %lu%s: another result", at, all_later ? " and all that follow" : "");
         }
     print_message("# %lu calls, %lu of %lu times the task ended without memory\n", (unsigned long)all, failed, tried);
 }

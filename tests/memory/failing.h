@@ -20,8 +20,8 @@ typedef bool task(void);
 /* Run a task with each failure. */
 void without_memory(task *work);
 
-/* Run a task with the failure of call `index` (0: none), and of all later calls if `on`. */
-bool run_task(task *work, unsigned long index, bool on);
+/* Run a task with the failure of call `index` (0: none), and of all later calls if `all_later`. */
+bool run_task(task *work, unsigned long index, bool all_later);
 
 /* Add bytes to the results of the task. */
 void add(const void *bytes, size_t n);

@@ -369,9 +369,10 @@ static bool fit_surface(void)
     static double rows[ROWS], u[POINTS * INPUTS], values[FIGURES * POINTS];
     static struct ceduo_replicates y[FIGURES * POINTS], changes[FIGURES * POINTS];
     const double *const draws[] = {rows};
-    struct ceduo_input of[INPUTS] = {{.kind = CEDUO_INPUT_DRAWS, .places_count = 1, .draws_count = ROWS, .draws = draws}};
+    struct ceduo_input surface_inputs[INPUTS] = {
+        {.kind = CEDUO_INPUT_DRAWS, .places_count = 1, .draws_count = ROWS, .draws = draws}};
     for (size_t i = 1; i < INPUTS; i++)
-        of[i] = (struct ceduo_input){.kind = CEDUO_INPUT_RANGE, .hi = 1};
+        surface_inputs[i] = (struct ceduo_input){.kind = CEDUO_INPUT_RANGE, .hi = 1};
     for (size_t i = 0; i < ROWS; i++)
         rows[i] = (double)i;
     LOCAL(ceduo_surface, surface) = NULL;
@@ -382,7 +383,7 @@ static bool fit_surface(void)
             y[i].value[g] = sin(40 * u[i % POINTS * INPUTS + i / POINTS]) + .1 * sin((double)(i * CEDUO_SURFACE_GROUPS + g));
     const struct ceduo_surface_figure figure = {.y = y, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
     if (status == CEDUO_OK)
-        status = ceduo_surface_open(of, INPUTS, u, POINTS, &surface);
+        status = ceduo_surface_open(surface_inputs, INPUTS, u, POINTS, &surface);
     if (status == CEDUO_OK)
         status = ceduo_surface_fit(surface, &figure, &fit);
     if (status == CEDUO_OK)

@@ -92,9 +92,9 @@ static void check_flight(struct checker *w, const struct ceduo_trajectory_segmen
     double g = w->scene->scene.simulation.gravity;
     double v2 = (p->vx * p->vx + p->vz * p->vz) / 2, v2_end = (p->vx1 * p->vx1 + p->vz1 * p->vz1) / 2;
     double scale = v2 + g * (fabs(p->x) + fabs(p->z)), scale_end = v2_end + g * (fabs(p->x1) + fabs(p->z1));
-    double off = fabs((v2 + g * p->z) - (v2_end + g * p->z1));
-    if (off > 0)
-        w->energy_off = fmax(w->energy_off, off / fmax(scale, scale_end));
+    double error = fabs((v2 + g * p->z) - (v2_end + g * p->z1));
+    if (error > 0)
+        w->energy_off = fmax(w->energy_off, error / fmax(scale, scale_end));
     check_flight_depth(w, p);
     w->flights++;
 }
@@ -204,10 +204,10 @@ static bool is_smooth(const struct line_scene *s)
     return true;
 }
 
-static void expect_number(uint64_t scene, const char *what, double value, double max)
+static void expect_number(uint64_t scene, const char *label, double value, double max)
 {
     if (!(value <= max))
-        fail_msg("scene %ju: %s %g, more than %g", (uintmax_t)scene, what, value, max);
+        fail_msg("scene %ju: %s %g, more than %g", (uintmax_t)scene, label, value, max);
 }
 
 static void expect_crossing(uint64_t number, const struct ceduo_crossing *c)
@@ -241,7 +241,7 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
                      CEDUO_OK);
     if (w.bad || !isfinite(trajectory.x + trajectory.z) ||
         (w.pieces > 0 && (trajectory.x != w.last.x1 || trajectory.z != w.last.z1)))
-        fail_msg("scene %ju: not a number, or a gap in the way", (uintmax_t)number);
+        fail_msg("scene %ju: not a number, or a gap in the trajectory", (uintmax_t)number);
     expect_number(number, "energy of a flight changes by", w.energy_off, ENERGY);
     expect_number(number, "a contact gains", w.gain, ENERGY);
     expect_number(number, "a contact of crsp gains", w.crsp_gain, ENERGY);

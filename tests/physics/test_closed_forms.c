@@ -684,27 +684,27 @@ static double below(double z)
     return erfc(-z / sqrt(2)) / 2;
 }
 
-struct seen {
+struct summary {
     double mean, sd, lowest, highest;
 };
 
 /* Draw by n evenly spaced quantiles (n > 0) or by 10^6 random ones. */
-static struct seen draw_many(struct ceduo_number number, double lo, double hi, size_t n)
+static struct summary draw_many(struct ceduo_number number, double lo, double hi, size_t n)
 {
     struct line_random r = {.state = 11};
     struct ceduo_moments m = {0};
-    struct seen seen = {.lowest = INFINITY, .highest = -INFINITY};
+    struct summary summary = {.lowest = INFINITY, .highest = -INFINITY};
     size_t count = n > 0 ? n : 1000000;
     for (size_t i = 0; i < count; i++) {
         double u = n > 0 ? ((double)i + .5) / (double)n : line_uniform(&r, 0, 1) + 0x1p-54;
         double v = ceduo_number_draw(number, u, lo, hi);
         ceduo_moments_add(&m, v);
-        seen.lowest = fmin(seen.lowest, v);
-        seen.highest = fmax(seen.highest, v);
+        summary.lowest = fmin(summary.lowest, v);
+        summary.highest = fmax(summary.highest, v);
     }
-    seen.mean = m.mean;
-    seen.sd = ceduo_moments_sd(&m);
-    return seen;
+    summary.mean = m.mean;
+    summary.sd = ceduo_moments_sd(&m);
+    return summary;
 }
 
 /* Compare with the normal law truncated at [a, b] standard deviations from its mean. */
@@ -715,7 +715,7 @@ static void expect_cut_normal(double mean, double sd, double lo, double hi)
     double shift = (density(a) - density(b)) / p;
     double variance = 1 + (a * density(a) - b * density(b)) / p - shift * shift;
     double expected = mean + sd * shift, width = sd * sqrt(variance);
-    struct seen even = draw_many(n, lo, hi, 200000), random = draw_many(n, lo, hi, 0);
+    struct summary even = draw_many(n, lo, hi, 200000), random = draw_many(n, lo, hi, 0);
     EXPECT_NEAR(even.mean, expected, 1e-5 * sd);
     EXPECT_NEAR(even.sd, width, 1e-4 * sd);
     EXPECT_NEAR(random.mean, expected, 4 * width / 1e3); /* 4 standard errors of 10^6 draws */
@@ -741,7 +741,7 @@ TEST(a_uniform_spread)
     struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_UNIFORM};
     EXPECT(ceduo_number_min(n), ==, 1.5);
     EXPECT(ceduo_number_max(n), ==, 2.5);
-    struct seen all = draw_many(n, -INFINITY, INFINITY, 0), cut = draw_many(n, 0, 2, 0);
+    struct summary all = draw_many(n, -INFINITY, INFINITY, 0), cut = draw_many(n, 0, 2, 0);
     EXPECT_NEAR(all.mean, 2, 4 * .5 / sqrt(3) / 1e3);
     EXPECT_NEAR(all.sd, .5 / sqrt(3), 1e-3);
     ROWS(EXPECT, (all.lowest, >=, 1.5), (all.highest, <=, 2.5), (all.lowest, <, 1.501), (all.highest, >, 2.499));

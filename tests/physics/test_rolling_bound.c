@@ -235,11 +235,11 @@ static struct worst find_worst(double speed[][ROUGH])
     return w;
 }
 
-static void note(const char *what, double degrees, struct worst w)
+static void note(const char *label, double degrees, struct worst w)
 {
     print_message("%s, %g deg: rougher ground faster by at most %.3f, factor 2 of roughness changes speed by at most %.2f, "
                   "smaller blocks faster by at most %.3f\n",
-                  what, degrees, w.rise, w.factor, w.slower);
+                  label, degrees, w.rise, w.factor, w.slower);
 }
 
 /* With the largest facets above 35 to 60 degrees, depending on the slope, a factor 2 of roughness changes speed by more than a

@@ -16,10 +16,10 @@
 
 static const int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
-static void expect_near(double got, double want)
+static void expect_near(double got, double wanted)
 {
-    if (!(fabs(got - want) <= EXACT * fabs(want)))
-        fail_msg("%.17g, not %.17g", got, want);
+    if (!(fabs(got - wanted) <= EXACT * fabs(wanted)))
+        fail_msg("%.17g, not %.17g", got, wanted);
 }
 
 /* Simulate rock 0 under a rounding mode, and everything else in the default one. */
@@ -131,10 +131,10 @@ static struct ceduo_arrivals arrive(const struct ceduo_scene *s, int mode, doubl
     return a;
 }
 
-static void expect_within(const char *what, double got, double want, double error)
+static void expect_within(const char *label, double got, double wanted, double error)
 {
-    if (!(fabs(got - want) <= error))
-        fail_msg("%s: %.12g, not %.12g within %.3g", what, got, want, error);
+    if (!(fabs(got - wanted) <= error))
+        fail_msg("%s: %.12g, not %.12g within %.3g", label, got, wanted, error);
 }
 
 TEST(statistics_agree_within_their_error)

@@ -308,11 +308,11 @@ static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally
     tally->excused++;
 }
 
-static void expect_agreement(const struct tally *t, const char *what)
+static void expect_agreement(const struct tally *t, const char *label)
 {
     print_message("%s: %ju rocks, %ju contacts: %ju the same, %ju apart by growth of rounding (%ju at the first contact), "
                   "%ju with no more energy than rounding, %ju sent off by rounding alone; %ju longer than %d contacts\n",
-                  what, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
+                  label, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
                   (uintmax_t)t->first_apart, (uintmax_t)t->still, (uintmax_t)t->aimless, (uintmax_t)t->cut_short, CONTACTS);
     ROWS(EXPECT, (t->same + t->excused + t->still + t->aimless, ==, t->rocks), ((double)t->same, >=, .99 * (double)t->rocks),
          ((double)t->first_apart, <=, .001 * (double)t->rocks));
@@ -341,7 +341,7 @@ TEST(sixteen_combinations_on_the_slope_of_table_3)
 }
 
 /* line_scene_random() draws the bound; here it is set for every scene. */
-static void compare_random_scenes(bool friction_bound, const char *what)
+static void compare_random_scenes(bool friction_bound, const char *label)
 {
     static struct line_scene scene;
     struct tally tally = {0};
@@ -350,7 +350,7 @@ static void compare_random_scenes(bool friction_bound, const char *what)
         scene.scene.simulation.friction_bound = friction_bound;
         compare(&scene.scene, number % 7, &tally);
     }
-    expect_agreement(&tally, what);
+    expect_agreement(&tally, label);
 }
 
 TEST(random_scenes)

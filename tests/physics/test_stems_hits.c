@@ -275,9 +275,9 @@ struct first_stem {
     double from, length, rate;
 };
 
-static double first_stem_cdf(double x, const void *of)
+static double first_stem_cdf(double x, const void *context)
 {
-    const struct first_stem *f = of;
+    const struct first_stem *f = context;
     return expm1(-f->rate * (x - f->from)) / expm1(-f->rate * f->length);
 }
 

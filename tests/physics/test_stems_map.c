@@ -86,7 +86,7 @@ static void expect_same_as_map(const char *name, uint64_t trajectories, unsigned
     sweep_trajectories(&program, trajectories);
     sweep_maps(&map, trajectories, seed);
     const struct {
-        const char *what;
+        const char *label;
         struct sample *a, *b;
     } pairs[] = {{"hits per trajectory", &program.per_trajectory, &map.per_trajectory},
                  {"stools and trees per trajectory", &program.stools_per_trajectory, &map.stools_per_trajectory},
@@ -97,7 +97,7 @@ static void expect_same_as_map(const char *name, uint64_t trajectories, unsigned
                  {"diameters", &program.dbh, &map.dbh}};
     for (size_t i = 0; i < LENGTH(pairs); i++) {
         if (pairs[i].a->n + pairs[i].b->n > 0)
-            expect_same_law(named("%s, %s", name, pairs[i].what), pairs[i].a, pairs[i].b);
+            expect_same_law(named("%s, %s", name, pairs[i].label), pairs[i].a, pairs[i].b);
     }
     swept_clear(&program);
     swept_clear(&map);

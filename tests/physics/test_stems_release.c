@@ -39,7 +39,7 @@ static void bins_end_rock(struct bins *b)
 }
 
 /* Expect equal means of all bins: chi-square of the means with their covariance (Hotelling 1931, many rocks). */
-static void expect_even(const char *what, const struct bins *b, double per_bin)
+static void expect_even(const char *label, const struct bins *b, double per_bin)
 {
     gsl_matrix *s = gsl_matrix_alloc(b->k, b->k);
     gsl_vector *d = gsl_vector_alloc(b->k), *x = gsl_vector_alloc(b->k);
@@ -59,7 +59,7 @@ static void expect_even(const char *what, const struct bins *b, double per_bin)
     gsl_matrix_free(s);
     gsl_vector_free(d);
     gsl_vector_free(x);
-    expect_chi_square(what, chi2, (double)b->k);
+    expect_chi_square(label, chi2, (double)b->k);
 }
 
 /* ---- ground covered twice ---- */

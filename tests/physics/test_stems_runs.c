@@ -94,14 +94,14 @@ static struct pair_moments read_pairs(const struct ceduo_option *a, const struct
     return m;
 }
 
-static void expect_pair(const char *what, const struct ceduo_estimate *d, const struct ceduo_moments *m, double a, double b)
+static void expect_pair(const char *label, const struct ceduo_estimate *d, const struct ceduo_moments *m, double a, double b)
 {
-    print_message("# %s: %.6g ± %.3g\n", what, d->mean, d->se);
+    print_message("# %s: %.6g ± %.3g\n", label, d->mean, d->se);
     if (fabs(d->mean - (a - b)) > 1e-12 * (fabs(a) + fabs(b)))
-        fail_msg("%s: %.17g is not %.17g", what, d->mean, a - b);
+        fail_msg("%s: %.17g is not %.17g", label, d->mean, a - b);
     if (fabs(d->mean - m->mean) > 1e-12 * (fabs(a) + fabs(b)))
-        fail_msg("%s: %.17g is not %.17g, rock by rock", what, d->mean, m->mean);
-    expect_exact(what, d->se, ceduo_moments_se(m), 1e-9);
+        fail_msg("%s: %.17g is not %.17g, rock by rock", label, d->mean, m->mean);
+    expect_exact(label, d->se, ceduo_moments_se(m), 1e-9);
 }
 
 TEST(differences_have_the_error_of_differences_rock_by_rock)
@@ -306,7 +306,7 @@ TEST(stems_that_take_nothing_do_not_change_the_trajectory)
     }
     ceduo_tracer_free(f);
     ceduo_tracer_free(bare);
-    print_message("# %ju of %ju ways the same\n", (uintmax_t)same, (uintmax_t)rocks);
+    print_message("# %ju of %ju trajectories equal\n", (uintmax_t)same, (uintmax_t)rocks);
     EXPECT(same, >, rocks * 98 / 100); /* rounding turns some elsewhere */
     expect_mean("stems per metre of ADS 1 on the paper's site", &met[0], per_metre(9076, B + .061));
     expect_mean("stems per metre of ADS 2 on the paper's site", &met[1], per_metre(4641, B + .047));

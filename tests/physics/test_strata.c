@@ -174,10 +174,10 @@ TEST(free_runs_past_groups)
             free_rocks += n == 0;
             spread_add(&met, (double)n);
         }
-        const char *what = named("%u trees in %g m, flown", c->n, c->radius);
-        expect_share(what, free_rocks, rocks, wanted);
-        expect_mean(what, &met, c->threshold * per_metre(c->per_ha, B + TREE));
-        expect_close(what, spread_variance(&met), spread_variance_se(&met), spread_variance(&drawn),
+        const char *label = named("%u trees in %g m, flown", c->n, c->radius);
+        expect_share(label, free_rocks, rocks, wanted);
+        expect_mean(label, &met, c->threshold * per_metre(c->per_ha, B + TREE));
+        expect_close(label, spread_variance(&met), spread_variance_se(&met), spread_variance(&drawn),
                      spread_variance_se(&drawn));
     }
     gsl_rng_free(rng);

@@ -150,7 +150,7 @@ TEST(random_scenes)
         ROWS(EXPECT, (t.flights, >, 4 * scenes), (t.impacts, >, scenes), (t.ends[CEDUO_AT_REST], >, scenes / 10),
              (t.ends[CEDUO_LEFT_SLOPE], >, scenes / 10), (t.crossed, >, scenes / 10), (of_arm.crossed, >, scenes / 40));
     print_message("%ju scenes: %ju at rest, %ju left, %ju unfinished (%ju may last, %ju sink in a crack), %ju contacts; "
-                  "%ju ways part where nobody looks on\n",
+                  "%ju trajectories differ without callbacks\n",
                   (uintmax_t)scenes, (uintmax_t)t.ends[CEDUO_AT_REST], (uintmax_t)t.ends[CEDUO_LEFT_SLOPE],
                   (uintmax_t)t.ends[CEDUO_UNFINISHED], (uintmax_t)t.lasting, (uintmax_t)t.cracks, (uintmax_t)t.contacts,
                   (uintmax_t)parted);
