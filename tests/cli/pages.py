@@ -36,7 +36,7 @@ def digits(value, n):
     return f"{value:.{decimals}f}"
 
 
-def of_1000(lo_name, arrivals):
+def share_per_1000(lo_name, arrivals):
     """Return '991 (984–995)' as on the page."""
     share, lo, hi = (arrivals[f"{lo_name}_{k}"] for k in ("probability", "lo", "hi"))
     return "-" if share is None else f"{share * 1000:.0f} ({math.floor(lo * 1000)}–{math.ceil(hi * 1000)})"
@@ -66,7 +66,7 @@ CELL = r"(-|none|[^ (]+(?: \([^()]+\))?)"
 SIDES = {"with forest": "wooded", "without forest": "bare"}
 
 
-def arrivals_of(text):
+def parse_arrivals(text):
     """Return the tables of arrivals, in order: [{"wooded" or "bare": {name of a row: cell}}]."""
     tables, sides = [], []
     for line in text.splitlines():
@@ -121,9 +121,9 @@ def expect_mean(cell, figure, count, what):
 
 
 def expect_arrivals(rows, arrivals):
-    """What a table says of one side is what the JSON of the same run holds."""
+    """Compare one side of a table with the JSON of the same run."""
     named = {re.sub(r"^(arrive with more than|above) .* kJ$", "exceed", name): cell for name, cell in rows.items()}
-    expect_equal((named.get("exceed", "-"), named["arrive"]), (of_1000("exceed", arrivals), of_1000("reach", arrivals)), rows)
+    expect_equal((named.get("exceed", "-"), named["arrive"]), (share_per_1000("exceed", arrivals), share_per_1000("reach", arrivals)), rows)
     expect_mean(named.get("mean energy of those that arrive, kJ", "-"), arrivals["energy_kJ"], arrivals["rocks_reached"], rows)
     expect_mean(named.get("mean speed of those that arrive, m/s", "-"), arrivals["speed_m_s"], arrivals["rocks_reached"], rows)
     p95 = arrivals["energy_kJ"]["p95"]
@@ -137,7 +137,7 @@ def expect_arrivals(rows, arrivals):
 def expect_option(text, option, alone=True):
     """Expect the page of an option to equal the JSON of the same run; with several options the bare slope has its own section."""
     flat_text = re.sub(r"\s+", " ", text)
-    tables = arrivals_of(text)
+    tables = parse_arrivals(text)
     flown = option["controls"][0]["wooded"] is not None
     expect_equal(len(tables), len(option["controls"]) if alone or flown else 0, "tables of what arrives")
     for table, control in zip(tables, option["controls"]):
@@ -183,7 +183,7 @@ def columns(line):
 BLOCK = re.compile(r"^ {2}([> ]) +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+|none) +([\d.]+) +(-|\d+ \(\d+–\d+\))$")
 
 
-def blocks_of(text):
+def parse_sizes(text):
     """Return the table of other block sizes: [(own, volume, mass, diameter, ADC, contacts, per 1000)]."""
     lines = text.splitlines()
     first = next(i for i, line in enumerate(lines) if "Blocks of other sizes" in line)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import Folder, belt, expect, expect_equal, expect_in, good, result, run_all, stand, wooded_scene
-from pages import WHOLE, arrivals_of, expect_arrivals, expect_cells, expect_option, expect_order, expect_width, section, side_by_side
+from pages import WHOLE, parse_arrivals, expect_arrivals, expect_cells, expect_option, expect_order, expect_width, section, side_by_side
 from runs import FOUR, THICK, THIN, through, treated
 
 
@@ -31,7 +31,7 @@ def test_table_options():
     expect_order(text, *[re.escape(n) for n in names], "(?i)side by side")
     for option in run["options"]:
         expect_option(section(text, option["name"]), option, alone=False)
-    expect_arrivals(arrivals_of(section(text, "without forest"))[0]["bare"], run["options"][0]["controls"][0]["bare"])
+    expect_arrivals(parse_arrivals(section(text, "without forest"))[0]["bare"], run["options"][0]["controls"][0]["bare"])
     head, rows, words = side_by_side(text, names)
     expect_in("> 50 kJ", head, "head")
     for name, word in (("simple coppice, just cut", "✘"), ("simple coppice, 25 years", "✔"), ("large reserves, just cut", "✘")):

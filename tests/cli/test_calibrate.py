@@ -197,7 +197,7 @@ def test_csv():
 
 
 def test_scars():
-    """A fit to the number of scars says so if the observed share is unknown"""
+    """A fit to the number of scars reports if the observed share is unknown"""
     stems = {"name": "w", "trees": [{"per_ha": 600, "dbh_m": 0.2, "height_m": 14, "volume_m3": 0.2}]}
     what = quarry({"scars": {"from_m": 60, "to_m": 90, "height_m": [0.4, 0.5, 0.9], "of": 5}},
                   forest=[{"from_m": 60, "to_m": 90, "stand": stems}])

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""If too few rocks arrive even without forest every output says that there is no answer; and profiles drawn upward."""
+"""If too few rocks arrive even without forest every output reports that there is no answer; and profiles drawn upward."""
 import copy
 import json
 import re

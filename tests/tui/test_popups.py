@@ -350,7 +350,7 @@ def test_preview_is_what_comes():
         found = re.search(r"Contact (\w+).*?free run (\w+).*?energy (\w+).*?about (\d+) per 1000", ahead.popup)
         expect(found, "no lights in", ahead.popup)
         expect_equal(list(found.groups()[:3]), [lights(after, "braille")[k] for k in ("Contact", "Free run", "Energy")], name)
-        expect_near(float(found.group(4)), after.pair("above 250 kJ")[0], 60, f"{name}: of 1000")  # 4 s.e. of 1024 rocks
+        expect_near(float(found.group(4)), after.pair("above 250 kJ")[0], 60, f"{name}: of 1000")  # 4 standard errors of 1024 rocks
     keys = "key 5 a\ntype bare\nkey Enter 1 d 5 a\ntype simple-coppice\nwait idle\ndump\nkey Enter\nwait idle\ndump"
     ahead, after = fast(keys, "wood.yaml")  # next to an option without belts: the new one copies the first one's
     found = re.search(r"Contact (\w+).*?free run (\w+).*?energy (\w+)", ahead.popup)

@@ -227,7 +227,7 @@ def test_small_window():
 
 
 def test_no_stems():
-    """Without stems view 6 says so instead of a distance between hits, and view 4 for a belt; 100 % has no decimals"""
+    """Without stems view 6 reports it instead of a distance between hits, as view 4 does for a belt; 100 % has no decimals"""
     with Place() as place:
         place.write("bare.yaml", INDEX[:INDEX.index("forest:")] + "forest: [{from_m: 2, to_m: 38, stand: {system: bare}}]\n")
         years, belts = place.play("wait idle\nkey 6\nwait idle\nresize 80 24\nkey Tab\ndump\nkey Tab 4\ndump",

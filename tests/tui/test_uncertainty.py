@@ -20,7 +20,7 @@ NO_LAW = WOOD.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
 
 
 def test_nothing():
-    """A scene without uncertainty, or with it disabled, says so, computes nothing, and has none in the column"""
+    """A scene without uncertainty, or with it disabled, reports this, computes nothing, and has none in the column"""
     told = {NO_LAW + "uncertainty: none\n": "Uncertainty was not computed: the scene has 'uncertainty: none'",
             NO_LAW + "uncertainty: []\n": "Nothing in this scene is marked as assumed"}
     with Place() as place:
@@ -114,7 +114,7 @@ def test_options():
             "key 7\nwait idle\ndump\nkey ]\nwait idle\ndump\nkey PgDn\ndump\nkey 5\nwait idle\ndump", "cuts.yaml")
     thick.has("thick beats thin in", "clear.", "depends on")
     thin.has("thick beats thin in", "depends on") # the worse of a pair, too
-    for name in ("thick", "thin"):  # beside today's figure, of which it is
+    for name in ("thick", "thin"):  # next to today's figure
         band = re.search(rf"^{name} .* (\d+–\d+)$", thin.body, re.M).group(1)
         expect(re.search(rf"^{name} +\d+±\d+ +{band} +\d+±\d+ ", compared.body, re.M), compared)
     expect(re.search("^option +today +range +mean ", compared.body, re.M), compared)

@@ -25,9 +25,9 @@ TEST(numbers_are_shown_with_their_digits)
 /* A figure near its limit is printed on the side on which it was judged; others have the usual digits. */
 TEST(figures_lie_on_their_side_of_a_limit)
 {
-    for (TABLE(row, "unit/words.txt", "beside a limit"))
+    for (TABLE(row, "unit/words.txt", "near a limit"))
         assert_string_equal(VS_LIMIT(strtod(row.at[0], NULL), 3, strtod(row.at[1], NULL)), row.at[2]);
-    for (TABLE(row, "unit/words.txt", "percent beside 10"))
+    for (TABLE(row, "unit/words.txt", "percent near 10"))
         assert_string_equal(PERCENT_VS_LIMIT(strtod(row.at[0], NULL), .1), row.at[1]);
 }
 
@@ -186,7 +186,8 @@ TEST(an_interval_is_rounded_outward)
 
 /* ---- one-line answer ---- */
 
-/* Of 1000 through the wood of 'a' so many with too much energy, and what may be true of that; of uncertainty NAN: not computed. */
+/* Set the share of rocks through the forest of option a that exceed the limit, and its 90 % range; NaN: uncertainty not
+ * computed. Expect this answer. */
 static void expect_answer(double share, double p5, double p95, size_t width, const char *wanted)
 {
     LOCAL_TEXT(text);
