@@ -37,7 +37,7 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
     const char *place = input->places[0], *ground = input->path + sizeof GROUND_PATH - 1;
     struct value v;
     if (input->kind == CEDUO_INPUT_DRAWS) {
-        ceduo_text_append(text, _("left open by calibration"));
+        ceduo_text_append(text, _("calibration draws"));
         return;
     }
     if (!ceduo_value_find(&r->file->scene, place, &v)) {
@@ -431,8 +431,8 @@ void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncerta
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_uncertainty_order *o = &r->answer->orders[i];
     ceduo_text_format(text,
-                      r->answer->rotation ? _("Over the years %s beats %s in %.0f %% of plausible cases")
-                                          : _("Today %s beats %s in %.0f %% of plausible cases"),
+                      r->answer->rotation ? _("Over the years '%s' beats '%s' in %.0f %% of plausible cases")
+                                          : _("Today '%s' beats '%s' in %.0f %% of plausible cases"),
                       s->options[o->better].name, s->options[o->than].name, o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
@@ -474,10 +474,10 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     bool several = s->options_count > 1;
     const char *place = c->name ? c->name : "";
     if (r->answer->main == CEDUO_UNCERTAINTY_EXCEED)
-        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"),
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m: rocks of 1000 with more than %g kJ"),
                         place, c->x_given, ceduo_words_accepted(c));
     else
-        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"), place, c->x_given);
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m: kJ per released rock"), place, c->x_given);
     add_options(page, r, false, 0, SIZE_MAX);
     ceduo_uncertainty_warn_outside(r, ceduo_page_warn, page);
     size_t chosen = ceduo_uncertainty_advised_option(r);
