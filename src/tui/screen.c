@@ -85,7 +85,7 @@ enum view_number ceduo_screen_find_view(struct app *app, int column)
     return (enum view_number)v;
 }
 
-/* Draw the titles of the views, and the scene's name. Return true if that is its title. */
+/* Draw the titles of the views, and the scene's name. Return true if there is one. */
 static bool draw_title(struct app *app)
 {
     int x = 0;
@@ -96,7 +96,7 @@ static bool draw_title(struct app *app)
                                                 ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help)));
     const char *name = scene_name(app);
     ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 0, CEDUO_ROLE_TITLE, name);
-    return strcmp(name, scene_title(app)) == 0;
+    return *name;
 }
 
 /* Draw the answer for the option shown, with the progress of the uncertainty while that may change the answer. */

@@ -554,14 +554,14 @@ static void add_input_bars(struct ceduo_page *page, const struct ceduo_uncertain
     if (lines < 2)
         return;
     CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_text_format(&page->last->cells[3].text, _("of %.3g wide"), (f->fit.p95 - f->fit.p5) * get_factor(r));
+    ceduo_text_format(&page->last->cells[3].text, _("width %.3g"), (f->fit.p95 - f->fit.p5) * get_factor(r));
     for (size_t i = 0, n = 1; f->fit.enough_points && i < f->uses && n < (size_t)lines; i++)
         if (f->fit.total[f->order[i]].value >= BAR_SHARE_MIN) {
             double share = ceduo_uncertainty_share(f, f->order[i]);
             ceduo_uncertainty_input_name(ceduo_page_text(page), r, f->order[i]);
             ceduo_page_bar(page, share, CEDUO_ROLE_MEAN);
             ceduo_page_cell_format(page, "%.0f %%", share * 100);
-            append_known_width(ceduo_page_text(page), f, f->order[i], _("leaves %s"));
+            append_known_width(ceduo_page_text(page), f, f->order[i], _("%s if known"));
             n++;
         }
 }

@@ -332,7 +332,7 @@ def test_page():
                  for h in (bare, wooded)]
         expect(re.search(rf"return period of such a rock, years {re.escape(years[0])} ", page), years, page)
         expect(re.search(rf"return period of such a rock, years {re.escape(years[1])} ", page), years, page)
-        expect_in("Rock sphere; rocks are the blocks below, the index is of ", page)
+        expect_in("Rock sphere; sizes as in Blocks; index for a rock of ", page)
         left = " ".join(shown(100 * m["rate_left"]) for m in wooded["matrix"])
         expect_in(f"coppice {years[1]} {left} without forest {years[0]} 100 100 100 Energy reached or exceeded", page)
         square = page.split("Intensity by return period")[2]
