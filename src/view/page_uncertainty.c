@@ -491,9 +491,10 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change in plausible cases */
         LOCAL_TEXT(words);
         ceduo_uncertainty_light_words(&words, r, i / 3, i % 3);
-        if (words.length > 0)
-            ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s%s%s", several ? s->options[i / 3].name : "", several ? ": " : "",
-                            words.bytes);
+        if (words.length > 0 && several)
+            ceduo_page_para(page, CEDUO_PAGE_ITEM, "'%s': %s", s->options[i / 3].name, words.bytes);
+        else if (words.length > 0)
+            ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", words.bytes);
     }
     if (r->answer->rotation && all) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);

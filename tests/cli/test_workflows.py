@@ -422,7 +422,7 @@ def test_survey():
     expect(re.search(r"standards: Toscana asks for ≥ 60 standards a hectare \(art. 22, D.P.G.R. 48/R, 2003\); 11\d[.\d]* are kept: met",
                      page), page)
     expect(re.search(r" beats .*: (clear|likely|hardly ever worse|undecided)\.", " ".join(walk.outputs[4].split())), walk.outputs[4])
-    expect(re.search(r"as it is: The test of energy depends on .*roughness", " ".join(walk.outputs[4].split())),
+    expect(re.search(r"'as it is': The test of energy depends on .*roughness", " ".join(walk.outputs[4].split())),
            walk.outputs[4])
     for name, language in (("page.html", "en"), ("pagina.html", "it")):
         html = walk.read(name)

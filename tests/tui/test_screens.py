@@ -428,7 +428,7 @@ def test_without_scene():
     """Without a scene the paper's site opens."""
     with Folder() as folder:
         screen = play.play(folder.path, "key 3\ndump")[0]
-    screen.has("Test site of", "diameter, m 0.56")
+    screen.has("paper-site", "diameter, m 0.56")
 
 
 def test_charset_of_locale():
