@@ -79,8 +79,10 @@ void ceduo_words_too_few_arrivals(struct text *text, const struct ceduo_result *
                              start + s->origin_x, fabs(falls));
     if (r->scene->release.x_assumed)
         ceduo_text_append_joined(text, " ", "%s", _("That is where the profile begins: release.x_m is not given."));
-    if (!isnan(distance))
-        ceduo_text_append_joined(text, " ", _("They come to rest within %s m of it."), SIG(distance < 0.05 ? 0 : distance, 2));
+    if (distance < 0.05)
+        ceduo_text_append_joined(text, " ", "%s", _("They do not move from there."));
+    else if (!isnan(distance))
+        ceduo_text_append_joined(text, " ", _("They come to rest within %s m of it."), SIG(distance, 2));
     if (falls < 0)
         ceduo_text_append_joined(text, " ", "%s", _("The profile may have been drawn upward."));
     /* remedy: an unreached face is probably the release area */
