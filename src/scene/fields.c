@@ -126,9 +126,9 @@ static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slo
 
 #define ITEM_FIELDS(min_row, max_row)                                                                                          \
     KIND_ROW(FIELD_WORDS, "species", NAMED(N_("species")), LIST(ceduo_regulation_item, species, species_count), NO_RUN, NULL,  \
-             N_("species of this row; without it all species that no earlier row names"), NULL, NULL),                             \
+             N_("species of this row; without it all species that no earlier row names"), NULL, NULL),                         \
         WORD("system", NAMED(N_("system")), MEMBER(ceduo_regulation_item, system), NO_RUN, NULL,                               \
-             N_("silvicultural system of this row; without it every system"), &ceduo_system_words),                          \
+             N_("silvicultural system of this row; without it every system"), &ceduo_system_words),                            \
         min_row, max_row,                                                                                                      \
         TEXT("article", NAMED(N_("article and act of the rule")), MEMBER(ceduo_regulation_item, article), REQUIRED | NO_RUN,   \
              N_("article")),                                                                                                   \
@@ -154,8 +154,7 @@ static const struct object turns_object = OBJECT(ceduo_regulation_item, turns_fi
 static const struct field rules_fields[] = {
     TAG("rules/1"),
     TEXT("name", NAMED(N_("region")), MEMBER(ceduo_regulation, name), REQUIRED | NO_RUN, N_("name of the region")),
-    TEXT("note", NAMED(N_("note")), MEMBER(ceduo_regulation, note), NO_RUN,
-         N_("remark printed with the rules")),
+    TEXT("note", NAMED(N_("note")), MEMBER(ceduo_regulation, note), NO_RUN, N_("remark printed with the rules")),
     TEXT("note_it", NAMED(N_("in Italian")), MEMBER(ceduo_regulation, note_it), NO_RUN,
          N_("the same in Italian pages, screens and lists; without it in English")),
     ITEMS("standards", N_("standards"), LIST(ceduo_regulation, standards, standards_count), NO_RUN, &standards_object),
@@ -174,7 +173,8 @@ static const struct field uncertainty_fields[] = {
     UNCERTAINTY_NUMBER("lo", N_("lower end"), lo, N_("lowest plausible value, in its unit; with hi")),
     UNCERTAINTY_NUMBER("hi", N_("upper end"), hi, N_("highest plausible value; all values between are equally likely")),
     UNCERTAINTY_NUMBER("mean", N_("mean"), mean, N_("instead: the mean of a normal distribution; with sd")),
-    UNCERTAINTY_NUMBER("sd", N_("standard deviation"), sd, N_("its standard deviation; the distribution is cut at three of them")),
+    UNCERTAINTY_NUMBER("sd", N_("standard deviation"), sd,
+                       N_("its standard deviation; the distribution is truncated at three of them")),
     KIND_ROW(FIELD_WORDS, "one_of", NAMED(N_("one of")), LIST(uncertainty_row, one_of, one_of_count), NO_RUN, NULL,
              N_("instead, for a word: the plausible words, all equally likely"), NULL, NULL),
 };
@@ -381,10 +381,9 @@ static const struct field control_fields[] = {
     NAME_IT(MEMBER(ceduo_control, name), 0),
     NUM(FIELD_NUMBER, "accepted_kJ", SHOWN(N_("limit, kJ"), N_("limit kJ"), 0, 20000), MEMBER(ceduo_control, accepted), "kJ",
         1000, 0, 1e9, 0, NULL, N_("energy that the structure or road there withstands")),
-    NUMBER(
-        "accepted_return_y", SHOWN(N_("accepted return, years"), N_("return y"), 1, 10000),
-        MEMBER(ceduo_control, accepted_return), "y", 0, 1e6, ABOVE | NO_RUN | FIELD_CERTAIN, NULL,
-        N_("with blocks: accepted years between two rocks with more than accepted_kJ; without it 100, an assumption")),
+    NUMBER("accepted_return_y", SHOWN(N_("accepted return, years"), N_("return y"), 1, 10000),
+           MEMBER(ceduo_control, accepted_return), "y", 0, 1e6, ABOVE | NO_RUN | FIELD_CERTAIN, NULL,
+           N_("with blocks: accepted years between two rocks with more than accepted_kJ; without it 100, an assumption")),
     NUMBER("measured_speed_m_s", SHOWN(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80), MEMBER(ceduo_control, measured_speed),
            "m/s", 0, 1000, NO_RUN, NULL, N_("speed of a real rock seen there, for comparison")),
 };

@@ -19,7 +19,7 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 #define MARKS_MORE  2   /* extra columns of the verdict's signs in ASCII */
 #define WIDE        100 /* columns for an extra blank between the titles of views */
 #define NAME_MIN    3   /* min. columns of the title of a closed view */
-#define NAME_SHORT  5   /* the same if that makes room for the scene's name */
+#define NAME_SHORT  5   /* the same if the scene's name then fits */
 #define NAME_WANTED 20  /* wanted columns of it */
 #define SCENE_GAP   2   /* columns kept for blanks around the scene's name */
 
@@ -49,7 +49,7 @@ static int all_columns(const struct app *app, int max)
     return total;
 }
 
-/* Return the name of the scene for the first line: its title if that fits beside short titles of views, otherwise the name
+/* Return the name of the scene for the first line: its title if that fits next to short titles of views, otherwise the name
  * of its file; empty if neither fits. */
 static const char *scene_name(struct app *app)
 {
@@ -59,9 +59,9 @@ static const char *scene_name(struct app *app)
     ceduo_text_append(&file, ceduo_document_unsaved(&app->document) ? "* " : "");
     ceduo_text_append_escaped_n(&file, base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
     const char *names[] = {scene_title(app), *base ? ceduo_arena_string(app->scratch, ceduo_text_string(&file)) : ""};
-    int room = app->width - all_columns(app, NAME_SHORT) - SCENE_GAP;
+    int free_columns = app->width - all_columns(app, NAME_SHORT) - SCENE_GAP;
     for (size_t i = 0; i < 2; i++)
-        if (ceduo_cells_label_width(app->charset, names[i]) <= room)
+        if (ceduo_cells_label_width(app->charset, names[i]) <= free_columns)
             return names[i];
     return "";
 }

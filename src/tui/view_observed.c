@@ -124,9 +124,12 @@ static void append_progress(const struct live *live, struct ceduo_page *page)
 
 static struct ceduo_calibration_report make_report(const struct fit *f)
 {
-    return (struct ceduo_calibration_report){
-        .scenes_count = 1, .files = &f->file, .inputs = f->inputs, .rocks = f->request.rocks, .answer = &f->answer,
-        .fix_named = f->undetermined_count > 0};
+    return (struct ceduo_calibration_report){.scenes_count = 1,
+                                             .files = &f->file,
+                                             .inputs = f->inputs,
+                                             .rocks = f->request.rocks,
+                                             .answer = &f->answer,
+                                             .fix_named = f->undetermined_count > 0};
 }
 
 static void append_fit(const struct fit *f, struct ceduo_page *page)

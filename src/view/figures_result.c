@@ -364,7 +364,8 @@ static const struct ceduo_figure arrivals[] = {
     {"height_m", "m", "height of their underside above the ground", IN(arrivals, height, distribution)},
     {"energy_per_released_kJ", "kJ", "energy over all released rocks; one that does not arrive counts as 0",
      IN(arrivals, energy_per_released, paired), .scale = J_TO_KJ},
-    {"missed", "", "ends of the released rocks that do not reach it; with reach_probability these add up to 1", .table = missed},
+    {"missed", "", "ends of the released rocks that do not reach it; with reach_probability these add up to 1",
+     .table = missed},
     {"hazard", "", "frequency and energy of the rocks", .from = get_hazard_figures, .table = hazard_figures,
      .null = "the scene has no blocks"},
     END};
@@ -434,12 +435,12 @@ static const struct ceduo_figure stand_columns[] = {
 static const struct ceduo_figure stand_warnings[] = {
     {"warnings", "", "sentences about this stand", .sentences = report_stand_warnings}, END};
 
-static const struct ceduo_figure stand[] = {
-    {.table = stand_columns},
-    {.table = stand_warnings},
-    {"rules", "", "rules of the region for a coppice, and if they are met", .from = get_rules, .table = rules,
-     .null = "the scene names no rules, or the stand is no coppice"},
-    END};
+static const struct ceduo_figure stand[] = {{.table = stand_columns},
+                                            {.table = stand_warnings},
+                                            {"rules", "", "rules of the region for a coppice, and if they are met",
+                                             .from = get_rules, .table = rules,
+                                             .null = "the scene names no rules, or the stand is no coppice"},
+                                            END};
 
 static const struct ceduo_figure summary[] = {
     {"length_m", "m", "wooded length", MEMBER(index, length)},
@@ -749,7 +750,8 @@ static const struct ceduo_figure sure_rows[] = {
      MEMBER(reliability, share.value), .null = NONE},
     {"probability_se", "", "its standard error, by the points and by the rocks", .from = get_sure_found,
      MEMBER(reliability, share.se), .null = NONE},
-    {"nearest", "", "value that reaches the goal in most plausible cases", .from = get_sure_nearest, MEMBER(reliability, found.nearest), .null = ONE},
+    {"nearest", "", "value that reaches the goal in most plausible cases", .from = get_sure_nearest,
+     MEMBER(reliability, found.nearest), .null = ONE},
     {"probability_at_nearest", "", "share in which that reaches the goal", .from = get_sure_nearest,
      MEMBER(reliability, share.value), .null = ONE},
     {"evaluations", "", "values computed", MEMBER(reliability, found.evaluations)},

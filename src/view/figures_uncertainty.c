@@ -192,8 +192,7 @@ static const struct ceduo_figure input_rows[] = {
 static const struct ceduo_figure first_rows[] = {
     {"path", "", "path of the input", .from = get_input, MEMBER(input, path)},
     {"measured_by", "", "measurement that would reduce its range", .value = input_measured},
-    {"option", "", "its option: the one that lets least pass in the mean of plausible cases",
-     .value = uncertainty_option},
+    {"option", "", "its option: the one that lets least pass in the mean of plausible cases", .value = uncertainty_option},
     {"width_if_known", "", "expected width of the 90 % range of its figure if this input were known",
      .value = input_known_width, .null = FEW_POINTS},
     END};

@@ -158,7 +158,8 @@ static void add_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         append_observation_name(&name, r, p);
         if (p->p_value < CEDUO_MISFIT)
             ceduo_page_para(page, CEDUO_PAGE_WARNING,
-                            o->use != CEDUO_OBSERVED_FIT ? _("The fit does not reproduce the observations held back to check it: %s.")
+                            o->use != CEDUO_OBSERVED_FIT
+                                ? _("The fit does not reproduce the observations held back to check it: %s.")
                             : p->inside ? _("The model reproduces the observed mean, but not the spread of the values: %s.")
                                         : _("The model cannot reproduce %s."),
                             ceduo_text_string(&name));

@@ -471,10 +471,9 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     for (size_t i = 0; v->choices[0].last_summary->years > 0 && i < v->n; i++) { /* limits of the yield model */
         known |= !isnan(v->choices[i].yield.cut_per_year);
         if (v->choices[i].yield.space > 1)
-            ceduo_page_para(
-                page, CEDUO_PAGE_NOTE,
-                _("'%s': the standards would take %.0f %% of the growing space, so its yield is not computed."),
-                r->scene->options[i].name, 100 * v->choices[i].yield.space);
+            ceduo_page_para(page, CEDUO_PAGE_NOTE,
+                            _("'%s': the standards would take %.0f %% of the growing space, so its yield is not computed."),
+                            r->scene->options[i].name, 100 * v->choices[i].yield.space);
     }
     if (known)
         ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "

@@ -33,7 +33,7 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
     const struct ceduo_slope *slope = &s->slope;
     struct text *line = ceduo_page_item(page, CEDUO_PAGE_FACT, _("Rock"));
     ceduo_text_format(line,
-                      s->blocks_count > 0 ? _("%s; sizes as in Blocks; index for a rock of %s kg, mean diameter %s m")
+                      s->blocks_count > 0           ? _("%s; sizes as in Blocks; index for a rock of %s kg, mean diameter %s m")
                       : ceduo_rock_varies(&s->rock) ? _("%s, %s kg, mean diameter %s m (means; sizes vary)")
                                                     : _("%s, %s kg, mean diameter %s m"),
                       _(shapes[s->rock.shape]), SIG(r->rock.mass, 4), SIG(r->rock.mean_diameter, 3));
@@ -322,7 +322,8 @@ static void add_residual(struct ceduo_page *page, const struct ceduo_result *r, 
                         _("By the index stems could absorb %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."),
                         SAME_DECIMALS(taken), SIG(index->per_100m * J_TO_KJ, 3), SAME_DECIMALS(mean), rest.bytes);
     if (!isnan(index->measured))
-        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock does not validate the model."),
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
+                        _("Measured here on one rock: %s kJ (%g m/s). One rock does not validate the model."),
                         SIG(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
 }
 

@@ -474,8 +474,8 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     bool several = s->options_count > 1;
     const char *place = c->name ? c->name : "";
     if (r->answer->main == CEDUO_UNCERTAINTY_EXCEED)
-        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m: rocks of 1000 with more than %g kJ"),
-                        place, c->x_given, ceduo_words_accepted(c));
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m: rocks of 1000 with more than %g kJ"), place,
+                        c->x_given, ceduo_words_accepted(c));
     else
         ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m: kJ per released rock"), place, c->x_given);
     add_options(page, r, false, 0, SIZE_MAX);

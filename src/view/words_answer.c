@@ -50,7 +50,8 @@ static void append_contradiction(struct text *text, const struct ceduo_arrivals 
 /* Append "none of 999 rocks arrives, even without forest". */
 static void append_arrivals(struct text *text, const struct ceduo_arrivals *bare)
 {
-    unsigned long long released = (unsigned long long)ceduo_rocks_released(bare), n = (unsigned long long)ceduo_rocks_reached(bare);
+    unsigned long long released = (unsigned long long)ceduo_rocks_released(bare),
+                       n = (unsigned long long)ceduo_rocks_reached(bare);
     if (n == 0)
         ceduo_text_format(text, _("none of %llu rocks arrives, even without forest"), released);
     else

@@ -64,11 +64,11 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
         ceduo_text_append_joined(text, " ", _("Years that fail: contact %zu, free run %zu of %zu."), s.unprotected_contact,
                                  s.unprotected_free_run, s.years);
     if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
-        ceduo_text_append_joined(text, " ", _("If only stems from %g cm on count: contact %zu, free run %zu."), CEDUO_THICK_DBH * 100,
-                                 s.thick_contact, s.thick_free_run);
+        ceduo_text_append_joined(text, " ", _("If only stems from %g cm on count: contact %zu, free run %zu."),
+                                 CEDUO_THICK_DBH * 100, s.thick_contact, s.thick_free_run);
     if (!isnan(s.passes_per_year) && !isnan(s.exceeds_per_year))
-        ceduo_text_append_joined(text, " ", _("Expected per year: %s rocks pass, %s with too much energy."), SIG(s.passes_per_year, 2),
-                                 SIG(s.exceeds_per_year, 2));
+        ceduo_text_append_joined(text, " ", _("Expected per year: %s rocks pass, %s with too much energy."),
+                                 SIG(s.passes_per_year, 2), SIG(s.exceeds_per_year, 2));
     else if (!isnan(s.passes_per_year))
         ceduo_text_append_joined(text, " ", _("Expected per year: %s rocks pass."), SIG(s.passes_per_year, 2));
 }

@@ -115,10 +115,9 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
             if (!ceduo_is_close_call(a))
                 continue;
             if (result->scene->blocks_count > 0)
-                ceduo_words_format(sink, context,
-                                   _("%s, %g m: too close to the limit of one rock in %g years today; simulate more rocks."),
-                                   NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given,
-                                   ceduo_accepted_return(control));
+                ceduo_words_format(
+                    sink, context, _("%s, %g m: too close to the limit of one rock in %g years today; simulate more rocks."),
+                    NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, ceduo_accepted_return(control));
             else
                 ceduo_words_format(
                     sink, context,
