@@ -21,14 +21,15 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 #define NAME_MIN    3   /* min. columns of the title of a closed view */
 #define NAME_SHORT  5   /* the same if the scene's name then fits */
 #define NAME_WANTED 20  /* wanted columns of it */
-#define SCENE_GAP   2   /* columns kept for blanks around the scene's name */
+#define UNSAVED     "* "
+#define SCENE_GAP   1 /* columns kept for blanks around the scene's name */
 
 /* Return the scene's title, with "* " if it is unsaved. */
 static const char *scene_title(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     LOCAL_TEXT(safe);
-    ceduo_text_append(&safe, ceduo_document_unsaved(&app->document) ? "* " : "");
+    ceduo_text_append(&safe, ceduo_document_unsaved(&app->document) ? UNSAVED : "");
     ceduo_text_append_escaped(&safe, ceduo_in_language(scene->title, scene->title_it));
     return ceduo_arena_string(app->scratch, ceduo_text_string(&safe));
 }
@@ -49,6 +50,13 @@ static int all_columns(const struct app *app, int max)
     return total;
 }
 
+/* Return the columns that the scene's name needs, with blanks and with the mark of unsaved work, which may come. */
+static int scene_columns(const struct app *app, const char *name)
+{
+    return ceduo_cells_label_width(app->charset, name) + SCENE_GAP +
+           (ceduo_document_unsaved(&app->document) ? 0 : (int)strlen(UNSAVED));
+}
+
 /* Return the name of the scene for the first line: its title if that fits next to short titles of views, otherwise the name
  * of its file; empty if neither fits. */
 static const char *scene_name(struct app *app)
@@ -56,12 +64,11 @@ static const char *scene_name(struct app *app)
     const char *path = app->document.path ? app->document.path : "", *slash = strrchr(path, '/');
     const char *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
     LOCAL_TEXT(file);
-    ceduo_text_append(&file, ceduo_document_unsaved(&app->document) ? "* " : "");
+    ceduo_text_append(&file, ceduo_document_unsaved(&app->document) ? UNSAVED : "");
     ceduo_text_append_escaped_n(&file, base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
     const char *names[] = {scene_title(app), *base ? ceduo_arena_string(app->scratch, ceduo_text_string(&file)) : ""};
-    int free_columns = app->width - all_columns(app, NAME_SHORT) - SCENE_GAP;
     for (size_t i = 0; i < 2; i++)
-        if (ceduo_cells_label_width(app->charset, names[i]) <= free_columns)
+        if (all_columns(app, NAME_SHORT) + scene_columns(app, names[i]) <= app->width)
             return names[i];
     return "";
 }
@@ -70,7 +77,7 @@ static const char *scene_name(struct app *app)
 static int title_columns(struct app *app, int view)
 {
     const char *name = scene_name(app);
-    int scene = *name ? ceduo_cells_label_width(app->charset, name) + SCENE_GAP : 0, max = NAME_WANTED;
+    int scene = *name ? scene_columns(app, name) : 0, max = NAME_WANTED;
     while (max > NAME_MIN && all_columns(app, max) + (max > NAME_SHORT ? scene : 0) > app->width)
         max--;
     return name_columns(app, view, max);

@@ -335,8 +335,8 @@ def test_editing_line():
         key Enter Ctrl-U Enter
         dump""")
     expect_in("uber dem We_", screens[0].body)
-    screens[1].has("│ * uber dem We")
-    screens[2].has("│ * Àuer dem We")
+    screens[1].has("* uber dem We")
+    screens[2].has("* Àuer dem We")
     screens[3].whole()
 
 
