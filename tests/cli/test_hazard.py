@@ -460,7 +460,7 @@ def test_design():
             expect_in(f"Speed: 95th percentile times {factor[survey]:.2f} for the survey of the ground and {model:.2f} for the model, "
                       f"{'fitted to observations' if ground is fitted else 'not fitted here'}. Energy: 95th percentile times the "
                       f"square of both and {factor[blocks]:.2f} for the survey of the blocks. Height: 95th percentile of the block's "
-                      "top, its underside and its mean diameter, without a factor.", page)
+                      "top (underside plus mean diameter), without a factor.", page)
         expect("UNI 11211" not in good(*WHOLE, f.write("t.yaml", slope_site())).out, "design values unasked")
         r = ceduo("--check", f.write("u.yaml", slope_site(design={"survey": "good"})))
         expect_equal(r.status, INPUT, r)
