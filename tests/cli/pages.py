@@ -129,7 +129,7 @@ def expect_arrivals(rows, arrivals):
     p95 = arrivals["energy_kJ"]["p95"]
     expect_equal(named.get("95 % stay below, kJ", "-"), digits(p95, 3) if p95 is None or p95 < 1e9 else named["95 % stay below, kJ"], rows)
     expect(re.split("[ \u00b1]", named["energy per released rock, kJ"])[0] == digits(arrivals["energy_per_released_kJ"]["mean"], 3), "kJ a rock", rows)
-    ways = (("stopped by stems before", "stopped_by_stems"), ("at rest before", "came_to_rest"), ("left the slope before", "left_slope"))
+    ways = (("stopped by stems before it", "stopped_by_stems"), ("at rest before it", "came_to_rest"), ("left the slope before it", "left_slope"))
     for name, key in ways:
         expect_equal(named.get(name, "0"), f"{arrivals['missed'][key] * 1000:.0f}", rows)
 
@@ -154,7 +154,7 @@ def expect_option(text, option, alone=True):
         expect_in("On the whole profile: of 1000, {} are stopped by stems, {} come to rest, {} leave it".format(*shares),
                   flat_text, "ends")
         if control["wooded"]["rocks_reached"] > 0:
-            expect_equal(table["wooded"].get("stems hit by one that arrives", "0"), digits(control["wooded"]["contacts"]["mean"], 3), "stems hit")
+            expect_equal(table["wooded"].get("stems hit per arriving rock", "0"), digits(control["wooded"]["contacts"]["mean"], 3), "stems hit")
     words = {"pass": "passes", "fail": "FAILS", "unknown": "unknown"}
     told = [c for c in option["controls"] if c["verdict"]["answer"] != "nothing"]
     nothing = len(re.findall("Contact, free run and energy cannot be assessed", flat_text))

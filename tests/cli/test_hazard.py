@@ -332,7 +332,7 @@ def test_page():
                  for h in (bare, wooded)]
         expect(re.search(rf"return period of such a rock, years {re.escape(years[0])} ", page), years, page)
         expect(re.search(rf"return period of such a rock, years {re.escape(years[1])} ", page), years, page)
-        expect_in("Rock sphere; rocks are the blocks below, the index is of ", page)
+        expect_in("Rock sphere; sizes as in Blocks; index for a rock of ", page)
         left = " ".join(shown(100 * m["rate_left"]) for m in wooded["matrix"])
         expect_in(f"coppice {years[1]} {left} without forest {years[0]} 100 100 100 Energy reached or exceeded", page)
         square = page.split("Intensity by return period")[2]
@@ -460,7 +460,7 @@ def test_design():
             expect_in(f"Speed: 95th percentile times {factor[survey]:.2f} for the survey of the ground and {model:.2f} for the model, "
                       f"{'fitted to observations' if ground is fitted else 'not fitted here'}. Energy: 95th percentile times the "
                       f"square of both and {factor[blocks]:.2f} for the survey of the blocks. Height: 95th percentile of the block's "
-                      "top, its underside and its mean diameter, without a factor.", page)
+                      "top (underside plus mean diameter), without a factor.", page)
         expect("UNI 11211" not in good(*WHOLE, f.write("t.yaml", slope_site())).out, "design values unasked")
         r = ceduo("--check", f.write("u.yaml", slope_site(design={"survey": "good"})))
         expect_equal(r.status, INPUT, r)

@@ -168,7 +168,7 @@ def test_bounded():
     expect_in("(7 each)", " ".join(page.split()))
     long = "a very long remark that goes on and on, " * 9
     page = run_page(PAPER, "-s", f"controls[0].source.text={long}", "-s", "controls[0].source.kind=assumed")
-    expect(len(page.splitlines()) <= 24 and re.search(r"ASSUMED \* control 1; stems count from$", page, re.M) and "remark" not in page, page)
+    expect(len(page.splitlines()) <= 24 and re.search(r"ASSUMED \* limit of control 1; stems count from$", page, re.M) and "remark" not in page, page)
 
 
 def test_details():

@@ -144,10 +144,10 @@ def test_table_lights():
                     for name in ("Contact", "Free run", "Energy")}
     lights = said()
     expect(re.fullmatch(r"passes\. Every belt has an ADC below 30 m \([\d.]+ m at most\) and no gap is longer\."
-                        r" Stems below 3 cm do not count\. Counting only stems from 8 cm on it fails: 100 m\.",
+                        r" Stems below 3 cm do not count\. It fails if only stems from 8 cm on count: 100 m\.",
                         lights["Contact"]), lights)
     expect(re.fullmatch(r"passes\. Chance of 30 m without a contact at worst [\d.]+ % \(10 % is allowed\)\."
-                        r" Counting only stems from 8 cm on it fails: 74\.1 %\.",
+                        r" It fails if only stems from 8 cm on count: 74\.1 %\.",
                         lights["Free run"]), lights)
     expect(re.fullmatch(r"FAILS\. \d+ \(\d+–\d+\) of 1000 arrive with more than 60 kJ \(50 are allowed\)\.",
                         lights["Energy"]), lights)
@@ -200,7 +200,7 @@ def test_threshold_along_the_ground():
                                        forest=[belt(0, 40), belt(45, 55), belt(60, 70)], controls=[{"x_m": 80}]))
         for threshold in (30, 20):
             text = re.sub(r"\s+", " ", good(*WHOLE, "-s", f"simulation.threshold_m={threshold}", path).out)
-            found = re.findall(r"; (\d+) m of the map are (\d+) m along the ground", text)
+            found = re.findall(r"; (\d+) m on the map are (\d+) m along the ground", text)
             wanted = [round(threshold * x) for x in (math.sqrt(2), (1 + math.sqrt(2)) / 2, 1)]
             expect_equal(found, [(str(threshold), str(x)) for x in wanted], text)
     expect_equal(round(30 * math.sqrt(2)), 42)

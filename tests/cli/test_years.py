@@ -572,7 +572,7 @@ def test_alike_years():
         text = re.sub(r"\s+", " ", good(*WHOLE, "-n", 200, path).out)
         counts = [len(o["years"]) for o in result("--years", "-n", 1, path)["options"]]
     expect_in("'still' does not change: stand 'coppice' has no growth and cutting data.", text)
-    expect_in("'none' does not change: no stem stands in it.", text)
+    expect_in("'none' does not change: it has no stems.", text)
     expect("'grows' does not change" not in text, text)
     expect_equal(counts, [25, 25, 25], "years")
 
@@ -959,7 +959,7 @@ def test_find_formats():
         expect_equal(re.findall(r"^(\S+):$", text, re.M), [str(a), str(b)], "scenes named")
         expect(str(a) not in good(*arguments[:-1]).out, "one scene needs no name")
         expect_equal(re.findall(r"^forest\S+ = (\d+)$", text, re.M), ["379", "334"])
-        expect("ADC 29.98 m (below 30 m is wanted)" in text, text)
+        expect("ADC 29.98 m (goal: below 30 m)" in text, text)
         good(*arguments, "-f", "json", "-o", f.path / "out.json")
         expect_equal([json.loads(x) for x in (f.path / "out.json").read_text().splitlines()], found)
         one, two = (good("--find", f"{RESERVES}=1:3000", "--goal", "exceed", "-j", j, a).out for j in (1, 2))

@@ -126,7 +126,7 @@ def test_standards_are_no_gift():
     expect_equal(run_yield(what)[1]["yield"], None, "600 standards")
     with Folder() as f:
         page = " ".join(good(*WHOLE, "--years", "-n", 2, f.write("s.yaml", what)).out.split())
-    expect_in("'600 standards' keeps more standards than the ground bears (1", page)
+    expect_in("'600 standards': the standards would take 1", page)
     expect_in("Side light, roots and the quality of the wood are not modelled.", page)
 
 

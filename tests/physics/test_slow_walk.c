@@ -57,8 +57,8 @@ static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct tr
     struct ceduo_crossing c;
     memset(t, 0, sizeof *t);
     assert_int_equal(ceduo_trajectory_run(scene, NULL, rock,
-                                          &(struct ceduo_trajectory_callbacks){.segment = note_piece, .context = t}, &trajectory,
-                                          &c),
+                                          &(struct ceduo_trajectory_callbacks){.segment = note_piece, .context = t},
+                                          &trajectory, &c),
                      CEDUO_OK);
     t->contacts = trajectory.contacts;
     t->end = trajectory.contacts > CONTACTS ? -1 : (int)trajectory.end;

@@ -206,7 +206,7 @@ def test_fit_taken():
     for screen in (fitted, large):
         best, lo, hi = map(float, re.search(r"speed along, m/s ([\d.]+) \(([\d.]+)–([\d.]+)\)", screen.body).groups())
         expect(abs(speed_at_gate(best) - 22) < 0.15 and abs(lo - 10.02 + slope) < 0.1 and abs(hi - 10.02 - slope) < 0.1, screen)
-        expect_in_view(screen, "Fitted. Enter applies these values", "The fit does not hold for what was to check it: too slow.")
+        expect_in_view(screen, "Fitted. Enter applies these values", "The fit does not reproduce the observations held back to check it: too slow.")
     expect_in_view(large, "The model reproduces all fitted observations.", "A neighbouring profile may need another ground.")
     expect_in_view(large, "It does not write the draws, all plausible values.", "-n 100 -o FITTED.yaml SCENE.yaml")
     expect_in("values and ranges written to the scene, without the draws; u undoes", taken.note)
@@ -324,7 +324,7 @@ def test_too_many_values():
         t.sees("Values to fit")
         t.keys("Enter", "Enter", "Enter", "Enter")
         told = " ".join(line[:50].strip() for line in t.sees("not determine all 4").split("\n"))
-        named = re.search(r"do not determine all 4 values: fix (.*?)\. c fits without it", told)
+        named = re.search(r"do not determine all 4 values, so the ranges are rough: fix (.*?), or observe more\. c fits without it", told)
         expect(named and re.search("bounce Rn|slide Rt", named.group(1)), told)
         t.keys("c")
         asked = t.sees("Values to fit")

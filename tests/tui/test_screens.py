@@ -72,10 +72,9 @@ OWN_KEYS = {"slope": ("Enter edit", "a add", "Tab picture"), "stand": ("Enter ed
 def check_frame(screen, view, scene, charset):
     screen.whole()
     for i, name in enumerate(VIEWS):
-        expect_in(f"{i + 1} {name}", screen.title, "title")
+        expect(re.search(rf" {i + 1} (?:{name}|{name[:3]}\w*[…~])", " " + screen.title), "title", screen)
     title = "Test site of Ciabocco et al. 2009" if "paper-site" in scene else "Four systems, before and after the cut"
-    begin, _, end = screen.title.replace("~", "…").rstrip().rpartition("\n")[2].partition("…")
-    expect(title in screen.title or (title.startswith(begin) and title.endswith(end) and len(begin + end) > 24), "title", screen)
+    expect(title in screen.title or Path(scene.split()[0]).stem in screen.title, "title", screen)
     for part in ("? help", "q quit", "u undo", "s save", *OWN_KEYS[view]):
         expect_in(part, screen.bar, "the bar of keys")
     wall = "|" if charset == "ascii" else "│"
@@ -429,7 +428,7 @@ def test_without_scene():
     """Without a scene the paper's site opens."""
     with Folder() as folder:
         screen = play.play(folder.path, "key 3\ndump")[0]
-    screen.has("Test site of", "diameter, m 0.56")
+    screen.has("paper-site", "diameter, m 0.56")
 
 
 def test_charset_of_locale():

@@ -211,9 +211,9 @@ static void expect_answer(double share, double p5, double p95, size_t width, con
 TEST(an_answer_is_shortened_by_whole_clauses)
 {
     static const char *const shorter[] = {
-        "✘ NO: 479 of 1000 arrive with more than 50 kJ (at most 50 rocks accepted); may be 234–748",
-        "✘ NO: 479 of 1000 arrive with more than 50 kJ; may be 234–748",
-        "✘ NO: 479 of 1000 > 50 kJ; may be 234–748",
+        "✘ NO: 479 of 1000 arrive with more than 50 kJ (at most 50 rocks accepted); range 234–748",
+        "✘ NO: 479 of 1000 arrive with more than 50 kJ; range 234–748",
+        "✘ NO: 479 of 1000 > 50 kJ; range 234–748",
         "✘ NO: 479 of 1000 > 50 kJ",
         "✘ NO: 479 of 1000",
         "✘ NO"};
@@ -367,7 +367,7 @@ TEST(reasons_for_no_rotation)
     options[2].belts = &belts[1];
     options[1].belts_count = options[2].belts_count = 1;
     ceduo_words_windows(&scene.scene, add_line, &text);
-    assert_string_equal(ceduo_text_string(&text), "'a' does not change: no stem stands in it.\n"
+    assert_string_equal(ceduo_text_string(&text), "'a' does not change: it has no stems.\n"
                                                   "'b' does not change: stand 'old stand' has no growth and cutting data.\n"
                                                   "'c' grows and is never cut.\n");
 }
