@@ -67,7 +67,7 @@ struct arguments {
     size_t scenes_count;
     const char *called; /* name of the current scene in messages; NULL: there is only one scene */
     const char *label;  /* of its row of --each in tables; NULL: no row */
-    size_t number;      /* of the current scene, from 0 */
+    size_t number;      /* number of the current scene, from 0 */
     uint64_t seed;
     char seed_set[64];          /* the seed as PATH=VALUE */
     bool years;                 /* compute every option year by year */
@@ -86,7 +86,7 @@ struct arguments {
     struct ceduo_profiles *profiles; /* of several scenes, for the table before the pages */
     struct text *title;              /* of the first scene of a report */
     struct ceduo_region *region;     /* lines of a report with --each; NULL: none */
-    uint64_t chapters;               /* of this report */
+    uint64_t chapters;               /* number of chapters of this report */
 };
 
 /* Requirement of an option. */

@@ -9,7 +9,7 @@
 
 #include "base/hash.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "each.h"
 #include "messages.h"
 #include "resume.h"
@@ -24,10 +24,10 @@ struct batch {
     struct columns columns;
     struct resume resume;
     struct output output;
-    struct text head;   /* head of the output in CSV */
-    struct text out;    /* not written yet */
-    bool first;         /* no answer was printed yet */
-    uint64_t runs;      /* hash of all inputs */
+    struct text head; /* head of the output in CSV */
+    struct text out;  /* not written yet */
+    bool first;       /* no answer was printed yet */
+    uint64_t runs;    /* hash of all inputs */
 };
 
 /* Append the answer of the current scene, or the reason of its failure. */

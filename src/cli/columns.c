@@ -175,7 +175,8 @@ enum exit_status ceduo_columns_open(struct columns *c, struct each *e, const str
         sorted[i] = (struct named_column){names[i], i};
     qsort(sorted, c->count, sizeof *sorted, compare_names);
     c->cells = ceduo_arena_alloc(arena, (c->count + 1) * sizeof *c->cells);
-    c->chosen = ceduo_arena_alloc(arena, (c->count + strlen(e->given->columns ? e->given->columns : "") + 1) * sizeof *c->chosen);
+    c->chosen =
+        ceduo_arena_alloc(arena, (c->count + strlen(e->given->columns ? e->given->columns : "") + 1) * sizeof *c->chosen);
     make_failed(c);
     if (!e->given->columns)
         choose_usual(c);

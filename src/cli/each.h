@@ -39,14 +39,14 @@ struct each {
     struct csv table;
     size_t heads_count, rows_count;
     struct each_head *heads;
-    struct each_row *rows; /* NULL: no --each */
-    size_t key;            /* column that names a row; NO_COLUMN: none */
-    size_t wkt, x, y;      /* columns of the geometry, if --format geojson needs it; NO_COLUMN: none */
-    const char **cells;    /* of the current row, one for each head */
+    struct each_row *rows;      /* NULL: no --each */
+    size_t key;                 /* column that names a row; NO_COLUMN: none */
+    size_t wkt, x, y;           /* columns of the geometry, if --format geojson needs it; NO_COLUMN: none */
+    const char **cells;         /* cells of the current row, one for each head */
     const struct each_row *row; /* current row; NULL: no --each */
-    bool names_files;      /* cells may name files that the scene reads */
-    bool bad_rows;         /* at least one row cannot be read */
-    struct text failed;    /* names of the scenes that failed */
+    bool names_files;           /* cells may name files that the scene reads */
+    bool bad_rows;              /* at least one row cannot be read */
+    struct text failed;         /* names of the scenes that failed */
     size_t failures;
 };
 
@@ -97,14 +97,14 @@ struct chosen_column {
 struct columns {
     struct each *each;
     size_t count, copied_count, result_begin;
-    const char **names; /* of all columns */
+    const char **names; /* name of each column */
     bool *texts;        /* the column holds text */
     size_t *copied;     /* column of the table of each copied column */
     size_t capacity, texts_capacity;
     size_t chosen_count;
     struct chosen_column *chosen;
     bool run_wanted;        /* the column `run` is chosen */
-    struct csv_span *cells; /* of the current line */
+    struct csv_span *cells; /* cells of the current line */
     struct text failed;     /* line of the result of a row that failed */
 };
 

@@ -180,8 +180,8 @@ void ceduo_geojson_print(const struct columns *c, void *out)
     struct json j = {.text = out};
     LOCAL_TEXT(geometry);
     bool known = ceduo_geometry_print(e, &geometry);
-    ceduo_text_format(out, "{\"type\": \"Feature\", \"geometry\": %s, \"properties\": ",
-                      known ? ceduo_text_string(&geometry) : "null");
+    ceduo_text_format(
+        out, "{\"type\": \"Feature\", \"geometry\": %s, \"properties\": ", known ? ceduo_text_string(&geometry) : "null");
     ceduo_json_open(&j, NULL, '{');
     for (size_t k = 0; k < c->chosen_count; k++) {
         size_t column = c->chosen[k].column;

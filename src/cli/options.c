@@ -12,7 +12,7 @@
 
 #include "arguments.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
 #include "ceduo/uncertainty.h"
 #include "ceduo/years.h"
@@ -284,8 +284,8 @@ enum {
 static const struct option_row rows[] = {
     {"batch", 'b', NULL, NULL, 0, MODE_BATCH, M_SURVEY,
      .help = N_("compute the scenes and print the result, without a terminal")},
-    {"format", 'f', "table|csv|json|geojson", set_word, MEMBER(format), MODE_TERMINAL, M_CHECK | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN,
-     .help = N_("format of the output (table)")},
+    {"format", 'f', "table|csv|json|geojson", set_word, MEMBER(format), MODE_TERMINAL,
+     M_CHECK | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN, .help = N_("format of the output (table)")},
     {"details", 0, NULL, set_flag, MEMBER(details), MODE_BATCH, M_CHECK | M_FIND | M_UNCERTAINTY | M_FIT | M_PAGE | M_SURVEY,
      .help = N_("print the whole page with every figure, not only the answer")},
     {"output", 'o', "FILE", set_output, 0, MODE_TERMINAL, M_CHECK | M_PAGE | M_SCREEN,
@@ -304,8 +304,9 @@ static const struct option_row rows[] = {
      .help = N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "
                 "copied")},
     {"key", 0, "NAME", set_text, MEMBER(key), MODE_TERMINAL, M_FIT | M_SURVEY | M_SCREEN, NEEDS_EACH,
-     .help = N_("the column of --each that names a row: messages use it, and other copied columns are printed only if --columns "
-                "names them")},
+     .help =
+         N_("the column of --each that names a row: messages use it, and other copied columns are printed only if --columns "
+            "names them")},
     {"columns", 0, "LIST", set_text, MEMBER(columns), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN,
      NEEDS_CSV, .help = N_("print these columns of CSV, with commas between their names; NAME=COLUMN renames one")},
     {"resume", 0, NULL, set_flag, MEMBER(resume), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_SCREEN, NEEDS_FILE,
@@ -429,8 +430,7 @@ static enum exit_status report_requirement(const char *option, const char *neede
  * format. */
 static enum exit_status check_rows(const struct arguments *a, const char *mode)
 {
-    bool plot = a->plot != CEDUO_PLOT_NONE, csv = a->format == CEDUO_CSV,
-         columns = ceduo_format_has_columns(a->format);
+    bool plot = a->plot != CEDUO_PLOT_NONE, csv = a->format == CEDUO_CSV, columns = ceduo_format_has_columns(a->format);
     const struct {
         const char *name;
         bool given;

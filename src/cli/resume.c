@@ -16,7 +16,7 @@
 
 #include "base/hash.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "ceduo/status.h"
 #include "io/file.h"
 #include "messages.h"
@@ -109,36 +109,36 @@ static void make_identity(struct resume *r, const struct each *e)
 
 /* ---- files ---- */
 
-static enum exit_status refuse(const char *path, const char *why)
+static enum exit_status refuse(const char *path, const char *reason)
 {
-    ceduo_print_message(path, why);
+    ceduo_print_message(path, reason);
     return EXIT_OUTPUT;
 }
 
 /* Open a regular file. Return -1 and set *why on error. */
-static int open_regular(const char *path, const char **why)
+static int open_regular(const char *path, const char **reason)
 {
     struct stat st;
-    *why = NULL;
+    *reason = NULL;
     if (stat(path, &st) == 0 && !S_ISREG(st.st_mode)) {
-        *why = S_ISDIR(st.st_mode) ? strerror(EISDIR) : _("--resume needs a regular file, not a device or a pipe");
+        *reason = S_ISDIR(st.st_mode) ? strerror(EISDIR) : _("--resume needs a regular file, not a device or a pipe");
         return -1;
     }
     int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
     if (fd < 0)
-        *why = strerror(errno);
+        *reason = strerror(errno);
     return fd;
 }
 
 /* Open and lock the output. If another program has replaced it meanwhile, open the new file. */
 static enum exit_status open_locked(struct resume *r)
 {
-    const char *path = r->arguments->output, *why;
+    const char *path = r->arguments->output, *reason;
     for (;;) {
         struct stat own, now;
-        r->file = open_regular(path, &why);
+        r->file = open_regular(path, &reason);
         if (r->file < 0)
-            return refuse(path, why);
+            return refuse(path, reason);
         if (flock(r->file, LOCK_EX | LOCK_NB) != 0)
             return refuse(path, errno == EWOULDBLOCK ? _("another ceduo is writing to it; wait for its end, or write elsewhere")
                                                      : strerror(errno));
@@ -152,7 +152,7 @@ static enum exit_status open_locked(struct resume *r)
 #define BUFFER ((size_t)1 << 16)
 struct reader {
     int fd;
-    size_t length, from, n; /* of the file; begin and length of the buffer */
+    size_t length, from, n; /* bytes of the file; begin and length of the buffer */
     bool failed;            /* with errno set */
     char bytes[BUFFER];
 };
@@ -190,10 +190,10 @@ static const char *read_at(struct reader *reader, size_t offset, size_t wanted, 
 /* True if the file begins with these bytes. */
 static bool begins_with(struct reader *reader, const char *bytes, size_t length)
 {
-    for (size_t at = 0, n; at < length; at += n) {
-        const char *found = read_at(reader, at, 1, &n);
-        n = n < length - at ? n : length - at;
-        if (n == 0 || memcmp(found, bytes + at, n) != 0)
+    for (size_t offset = 0, n; offset < length; offset += n) {
+        const char *found = read_at(reader, offset, 1, &n);
+        n = n < length - offset ? n : length - offset;
+        if (n == 0 || memcmp(found, bytes + offset, n) != 0)
             return false;
     }
     return true;
@@ -204,10 +204,10 @@ static bool append(int fd, size_t end, const char *bytes, size_t n)
 {
     if (lseek(fd, (off_t)end, SEEK_SET) >= 0 && ceduo_file_write_all(fd, bytes, n, NULL))
         return true;
-    int why = errno;
+    int reason = errno;
     if (ftruncate(fd, (off_t)end) != 0)
-        why = errno;
-    errno = why;
+        reason = errno;
+    errno = reason;
     return false;
 }
 
@@ -229,10 +229,10 @@ static void append_differences(const char *a, const char *b, struct text *names)
 
 static enum exit_status refuse_other(const struct resume *r, const char *names)
 {
-    LOCAL_TEXT(why);
-    ceduo_text_format(&why, _("it belongs to another run (different: %s); write elsewhere, or remove it and %s"), names,
+    LOCAL_TEXT(reason);
+    ceduo_text_format(&reason, _("it belongs to another run (different: %s); write elsewhere, or remove it and %s"), names,
                       r->side_path);
-    return refuse(r->arguments->output, ceduo_text_string(&why));
+    return refuse(r->arguments->output, ceduo_text_string(&reason));
 }
 
 /* Read a line of the side file. */
@@ -254,9 +254,9 @@ static bool read_part(const char *line, size_t n, struct resume_part *part)
 static uint64_t hash_range(struct reader *reader, size_t from, size_t length)
 {
     uint64_t hash = hash_begin(length);
-    for (size_t at = 0, n; at < length; at += n) {
-        const char *bytes = read_at(reader, from + at, 8, &n);
-        n = n >= length - at ? length - at : n - n % 8;
+    for (size_t offset = 0, n; offset < length; offset += n) {
+        const char *bytes = read_at(reader, from + offset, 8, &n);
+        n = n >= length - offset ? length - offset : n - n % 8;
         if (n == 0)
             break;
         hash_chunk(&hash, bytes, n);
@@ -291,7 +291,8 @@ static int compare_parts(const void *a, const void *b)
 /* Find the complete parts of the output, and truncate both files after the last of them. */
 static bool find_parts(struct resume *r, struct reader *output, struct reader *side)
 {
-    size_t offset = r->identity.length, side_end = offset, from = r->head->length, max = (side->length - offset) / PART_LENGTH, n;
+    size_t offset = r->identity.length, side_end = offset, from = r->head->length, max = (side->length - offset) / PART_LENGTH,
+           n;
     struct resume_part part;
     r->old_parts = ceduo_check_memory(calloc(max + 1, sizeof *r->old_parts));
     r->end = from;
@@ -320,9 +321,9 @@ static enum exit_status compare_run(const struct resume *r, struct reader *outpu
     if (output->length == 0)
         return EXIT_DONE;
     if (side->length == 0) {
-        LOCAL_TEXT(why);
-        ceduo_text_format(&why, _("its side file %s is missing; write elsewhere, or remove it"), r->side_path);
-        return refuse(r->arguments->output, ceduo_text_string(&why));
+        LOCAL_TEXT(reason);
+        ceduo_text_format(&reason, _("its side file %s is missing; write elsewhere, or remove it"), r->side_path);
+        return refuse(r->arguments->output, ceduo_text_string(&reason));
     }
     LOCAL_TEXT(found);
     LOCAL_TEXT(names);
@@ -348,24 +349,24 @@ static enum exit_status read_files(struct resume *r)
     else if (good && status == EXIT_DONE)
         good = ftruncate(r->file, 0) == 0 && ftruncate(r->side, 0) == 0 &&
                append(r->side, 0, r->identity.bytes, r->identity.length);
-    int why = errno;
+    int reason = errno;
     free(readers);
-    return good ? status : refuse(r->arguments->output, strerror(why));
+    return good ? status : refuse(r->arguments->output, strerror(reason));
 }
 
 enum exit_status ceduo_resume_open(struct resume *r, struct each *e, const struct text *head)
 {
     *r = (struct resume){.arguments = e->given, .head = head, .file = -1, .side = -1};
     LOCAL_TEXT(side);
-    const char *why;
+    const char *reason;
     ceduo_text_format(&side, "%s.resume", e->given->output);
     r->side_path = ceduo_check_memory(strdup(ceduo_text_string(&side)));
     enum exit_status status = open_locked(r);
     if (status != EXIT_DONE)
         return status;
-    r->side = open_regular(r->side_path, &why);
+    r->side = open_regular(r->side_path, &reason);
     if (r->side < 0)
-        return refuse(r->side_path, why);
+        return refuse(r->side_path, reason);
     make_identity(r, e);
     return read_files(r);
 }
@@ -451,9 +452,9 @@ static bool write_parts(const struct resume *r, struct reader *reader, int fd)
         size_t length = part->n;
         for (n = 1; i + n < r->order_count && part[n].from == part->from + length; n++)
             length += part[n].n;
-        for (size_t at = 0, piece; good && at < length; at += piece) {
-            const char *bytes = read_at(reader, part->from + at, 1, &piece);
-            piece = piece < length - at ? piece : length - at;
+        for (size_t offset = 0, piece; good && offset < length; offset += piece) {
+            const char *bytes = read_at(reader, part->from + offset, 1, &piece);
+            piece = piece < length - offset ? piece : length - offset;
             good = piece > 0 && ceduo_file_write_all(fd, bytes, piece, NULL);
         }
     }

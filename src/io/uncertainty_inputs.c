@@ -159,11 +159,11 @@ static void walk(struct input_finder *f, const struct object *object, const stru
         node = node || !alias ? node : ceduo_node_get(map, alias->key);
         bool list = field->type == FIELD_LIST, group = field->type == FIELD_GROUP;
         size_t before = f->path.length;
-        bool other = node && node->kind == NODE_LIST ? ceduo_schema_list(object, field) != NULL : false;
-        if (field->flags & FIELD_OR_NONE || other) /* `other`: the next row describes the list */
+        bool is_list = node && node->kind == NODE_LIST ? ceduo_schema_list(object, field) != NULL : false;
+        if (field->flags & FIELD_OR_NONE || is_list) /* the next row describes the list */
             continue;
         ceduo_text_format(&f->path, "%s%s", before > 0 ? "." : "", field->key);
-        size_t here = f->path.length;
+        size_t field_end = f->path.length;
         if (!list && !group)
             add_value(f, field, node);
         else if (list ? field->flags & FIELD_SCALAR_OK && node && node->kind == NODE_MAP
@@ -172,7 +172,7 @@ static void walk(struct input_finder *f, const struct object *object, const stru
         for (size_t k = 0; list && node && node->kind == NODE_LIST && k < node->n; k++) {
             ceduo_text_format(&f->path, "[%zu]", k);
             walk(f, field->object, node->items[k]);
-            ceduo_text_cut(&f->path, here);
+            ceduo_text_cut(&f->path, field_end);
         }
         ceduo_text_cut(&f->path, before);
     }

@@ -112,15 +112,15 @@ void ceduo_scene_average_releases(struct ceduo_scene *scene)
         means[i]->mean /= shares;
 }
 
-enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)
+enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *bad_control)
 {
     if (!scene)
         return CEDUO_BAD_ARGUMENT;
     struct ceduo_rock rock;
     enum ceduo_status status = ceduo_rock_from_means(&scene->rock, &rock);
     /* counted lists exist; ceduo_schema_holds() checks the other lists */
-    bool lists = (scene->blocks || scene->blocks_count == 0) && (scene->releases || scene->releases_count == 0) && (scene->controls || scene->controls_count == 0) &&
-                 (scene->options || scene->options_count == 0);
+    bool lists = (scene->blocks || scene->blocks_count == 0) && (scene->releases || scene->releases_count == 0) &&
+                 (scene->controls || scene->controls_count == 0) && (scene->options || scene->options_count == 0);
     for (size_t i = 0; lists && i < scene->options_count; i++)
         lists = scene->options[i].belts || scene->options[i].belts_count == 0;
     if (status == CEDUO_OK && !lists)
@@ -143,8 +143,8 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
         return status;
     double last = ceduo_scene_release_last(scene);
     for (size_t i = 0; i < scene->controls_count; i++) {
-        if (where)
-            *where = i;
+        if (bad_control)
+            *bad_control = i;
         if (!(scene->controls[i].x <= end))
             return CEDUO_CONTROL_OFF_SLOPE;
         if (!(scene->controls[i].x > last))

@@ -80,8 +80,8 @@ static struct ceduo_estimate difference_today(const void *context, size_t option
 static struct ceduo_estimate difference_by_alternative_law(const void *context, size_t option, size_t less)
 {
     const struct ceduo_result *r = context;
-    const struct ceduo_alternative_energy *one = &r->options[option].others[r->last_control];
-    const struct ceduo_alternative_energy *two = &r->options[less].others[r->last_control];
+    const struct ceduo_alternative_energy *one = &r->options[option].alternatives[r->last_control];
+    const struct ceduo_alternative_energy *two = &r->options[less].alternatives[r->last_control];
     if (!one->known || !two->known || (one->model != two->model && one->stems && two->stems))
         return CEDUO_NO_ESTIMATE;
     return subtract_differences(judged_difference(r, &one->to_first), judged_difference(r, &two->to_first));
@@ -321,12 +321,11 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
 
 /* ---- classes ---- */
 
-/* True if every rock without forest comes to rest near the release. */
+/* True if every rock without forest rests near the release. */
 static bool hardly_moves(const struct ceduo_result *r)
 {
     const struct ceduo_ends *ends = &r->bare.ends;
-    return ends->count[CEDUO_AT_REST] == r->bare.rocks &&
-           ends->stop_max - ceduo_scene_release_last(r->scene) < CEDUO_MOVES_MIN;
+    return ends->count[CEDUO_AT_REST] == r->bare.rocks && ends->stop_max - ceduo_scene_release_last(r->scene) < CEDUO_MOVES_MIN;
 }
 
 enum ceduo_class ceduo_outcome_classify(const struct ceduo_result *r, const struct ceduo_outcome *o, size_t control,

@@ -99,7 +99,7 @@ extern const struct ceduo_figure ceduo_uncertainty_figures[], ceduo_calibration_
 
 /* A row of --each. */
 struct ceduo_row_state {
-    const char *reason; /* of the failure; NULL: it did not fail */
+    const char *reason; /* reason of the failure; NULL: it did not fail */
     const char *run;    /* hash of its input; NULL: not requested */
 };
 /* Columns before those of the result; the answer of a row that failed; its columns that are not empty (object: struct

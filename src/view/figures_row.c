@@ -18,16 +18,16 @@ const struct ceduo_figure ceduo_row_figures[] = {
     {"status", "", "with --each: ok or failed; a row that failed has no figures", .value = row_status},
     REASON,
     {"run", "",
-     "hash of version, options and all files and values that the scene was read from: equal hashes, equal figures; printed only "
+     "hash of version, options and all files and values that the scene was read from: equal hashes, equal figures; printed "
+     "only "
      "if --columns names it",
      MEMBER(row_state, run)},
     END};
 
-const struct ceduo_figure ceduo_failed_figures[] = {
-    {"format", "", "always ceduo-failed-1", .value = failed_format},
-    {"version", "", "version of the program", .value = program_version},
-    REASON,
-    END};
+const struct ceduo_figure ceduo_failed_figures[] = {{"format", "", "always ceduo-failed-1", .value = failed_format},
+                                                    {"version", "", "version of the program", .value = program_version},
+                                                    REASON,
+                                                    END};
 
 static const struct ceduo_figure failed_verdict[] = {
     {"class", "", "", .value = failed_class}, {"why", "", "", .value = row_status}, END};

@@ -6,15 +6,15 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "ceduo/status.h"
 #include "page_parts.h"
 #include "svg.h"
 
 #define CLASSES (CEDUO_CLASS_NOT_JUDGED + 1)
 
-static const char *const class_names[CLASSES] = {N_("not reached"), N_("yes, also without forest"),       N_("yes"),
-                                                 N_("open"),        N_("no"),        N_("not judged")};
+static const char *const class_names[CLASSES] = {
+    N_("not reached"), N_("yes, also without forest"), N_("yes"), N_("open"), N_("no"), N_("not judged")};
 static const enum ceduo_role class_roles[CLASSES] = {CEDUO_ROLE_BARE, CEDUO_ROLE_GOOD, CEDUO_ROLE_GOOD,
                                                      CEDUO_ROLE_WARN, CEDUO_ROLE_BAD,  CEDUO_ROLE_DIM};
 
@@ -237,13 +237,14 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_region *r)
         }
         add_rate_row(page, r->options[i], reach, exceed);
     }
-    ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                    ngettext("Sum over %zu line with a rate. Rates add up only if the blocks of each line are those of its own "
-                             "part of the cliff.",
-                             "Sum over %zu lines with a rate. Rates add up only if the blocks of each line are those of its own "
-                             "part of the cliff.",
-                             r->rated),
-                    r->rated);
+    ceduo_page_para(
+        page, CEDUO_PAGE_NOTE,
+        ngettext("Sum over %zu line with a rate. Rates add up only if the blocks of each line are those of its own "
+                 "part of the cliff.",
+                 "Sum over %zu lines with a rate. Rates add up only if the blocks of each line are those of its own "
+                 "part of the cliff.",
+                 r->rated),
+        r->rated);
 }
 
 #define WORST 10
@@ -251,8 +252,8 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_region *r)
 static void add_worst(struct ceduo_page *page, const struct ceduo_region *r, size_t chapters)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("line"), 24, 0, COL_WRAP},          {N_("option"), 24, 1, COL_WRAP},  {NP_("head", "answer"), 24, 1, COL_WRAP},
-        {N_("reason"), 20, 1, 0},               {N_("of 1000"), -10, 1, 0},       {N_("above the limit per year"), -14, 1, 0},
+        {N_("line"), 24, 0, COL_WRAP},     {N_("option"), 24, 1, COL_WRAP}, {NP_("head", "answer"), 24, 1, COL_WRAP},
+        {N_("reason"), 20, 1, 0},          {N_("of 1000"), -10, 1, 0},      {N_("above the limit per year"), -14, 1, 0},
         {NP_("head", "chapter"), -8, 1, 0}};
     size_t judged = r->count - r->failed, n = judged < WORST ? judged : WORST;
     if (n == 0)
@@ -319,8 +320,8 @@ void ceduo_region_page(struct ceduo_page *page, const struct ceduo_region *r, co
     ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Program")), "ceduo %s", CEDUO_VERSION);
     ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Table")), "%s, %016llx", origin->table,
                       (unsigned long long)origin->table_hash);
-    ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Inputs")), _("%016llx: hash of version, options and all files read"),
-                      (unsigned long long)origin->run);
+    ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_FACT, _("Inputs")),
+                      _("%016llx: hash of version, options and all files read"), (unsigned long long)origin->run);
     ceduo_page_para(page, CEDUO_PAGE_SENTENCE, "%s", _("This command gives the same page, to the last byte:"));
     ceduo_page_para(page, CEDUO_PAGE_CODE, "%s", origin->command);
 }

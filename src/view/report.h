@@ -153,7 +153,7 @@ enum ceduo_measure_kind {
     CEDUO_P95_TOP, /* height of the top of the rock */
     CEDUO_MEASURE_KINDS
 };
-struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind what, const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind kind, const struct ceduo_arrivals *arrivals);
 
 /* Return numbers of rocks; 0 if NULL. */
 uint64_t ceduo_rocks_released(const struct ceduo_arrivals *arrivals);
@@ -162,7 +162,7 @@ uint64_t ceduo_rocks_unfinished(const struct ceduo_arrivals *arrivals);
 
 /* Distribution over arriving rocks: m/s, J, m above ground. */
 enum ceduo_spread { CEDUO_ARRIVAL_SPEED, CEDUO_ARRIVAL_ENERGY, CEDUO_ARRIVAL_HEIGHT };
-const struct ceduo_distribution *ceduo_arrival_distribution(enum ceduo_spread what, const struct ceduo_arrivals *arrivals);
+const struct ceduo_distribution *ceduo_arrival_distribution(enum ceduo_spread kind, const struct ceduo_arrivals *arrivals);
 
 /* True if more rocks may change the test of energy. `arrivals` may be NULL. */
 bool ceduo_is_close_call(const struct ceduo_arrivals *arrivals);
@@ -271,7 +271,7 @@ void ceduo_profiles_free(struct ceduo_profiles *profiles);
 
 /* A region: lines of one scene, each a row of --each. Initialize with zeros; caller frees. */
 struct ceduo_region {
-    const char *title, *place; /* of the first line; place NULL: without name */
+    const char *title, *place; /* as in the first line; place NULL: without name */
     double accepted;
     size_t options_count;
     const char **options; /* names; NULL: no line was computed */
@@ -285,7 +285,7 @@ struct ceduo_region_origin {
     const char *table;
     uint64_t table_hash, run; /* run: of all scenes */
     const char *command;
-    size_t chapters; /* of the worst lines */
+    size_t chapters; /* number of chapters */
 };
 /* Add a line; one that failed, with its reason. `scene`: number for the caller. */
 void ceduo_region_add(struct ceduo_region *region, const struct ceduo_report *report, const char *name, size_t scene);
@@ -324,6 +324,7 @@ struct ceduo_calibration_report {
     const struct ceduo_input *inputs; /* fitted values */
     uint64_t rocks;
     const struct ceduo_calibration *answer;
+    bool fix_named; /* the caller names the values to fix */
 };
 
 /* Append the name of a fitted value, "bounce Rn, talus"; its number in the display unit. */

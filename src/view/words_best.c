@@ -25,7 +25,7 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option)
     if (kind == CEDUO_WINDOW_AHEAD)
         ceduo_text_format(text, _("'%s' grows and is never cut."), NAME_OF(option));
     else if (kind == CEDUO_WINDOW_CONSTANT && !standing)
-        ceduo_text_format(text, _("'%s' does not change: no stem stands in it."), NAME_OF(option));
+        ceduo_text_format(text, _("'%s' does not change: it has no stems."), NAME_OF(option));
     else if (kind == CEDUO_WINDOW_CONSTANT)
         ceduo_text_format(text, _("'%s' does not change: stand '%s' has no growth and cutting data."), NAME_OF(option),
                           NAME_OF(standing));
@@ -56,7 +56,7 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
     else if (!s.nothing)
         ceduo_text_append_joined(text, " ", _("the ADC is largest in year %u."), s.worst_year);
     if (s.nothing)
-        ceduo_text_append_joined(text, " ", "%s", _("The forest cannot be assessed: no rock arrives, even without it."));
+        ceduo_text_append_joined(text, " ", "%s", _("The forest cannot be assessed: no rock arrives, even without forest."));
     else if (s.simulated > 0 && has_energy)
         ceduo_text_append_joined(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."),
                                  s.unprotected_energy, s.unprotected_contact, s.unprotected_free_run, s.years);
@@ -64,19 +64,19 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
         ceduo_text_append_joined(text, " ", _("Years that fail: contact %zu, free run %zu of %zu."), s.unprotected_contact,
                                  s.unprotected_free_run, s.years);
     if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
-        ceduo_text_append_joined(text, " ", _("From %g cm on: contact %zu, free run %zu."), CEDUO_THICK_DBH * 100,
-                                 s.thick_contact, s.thick_free_run);
+        ceduo_text_append_joined(text, " ", _("If only stems from %g cm on count: contact %zu, free run %zu."),
+                                 CEDUO_THICK_DBH * 100, s.thick_contact, s.thick_free_run);
     if (!isnan(s.passes_per_year) && !isnan(s.exceeds_per_year))
-        ceduo_text_append_joined(text, " ", _("Expected a year: %s pass, %s with too much."), SIG(s.passes_per_year, 2),
-                                 SIG(s.exceeds_per_year, 2));
+        ceduo_text_append_joined(text, " ", _("Expected per year: %s rocks pass, %s with too much energy."),
+                                 SIG(s.passes_per_year, 2), SIG(s.exceeds_per_year, 2));
     else if (!isnan(s.passes_per_year))
-        ceduo_text_append_joined(text, " ", _("Expected a year: %s pass."), SIG(s.passes_per_year, 2));
+        ceduo_text_append_joined(text, " ", _("Expected per year: %s rocks pass."), SIG(s.passes_per_year, 2));
 }
 
 void ceduo_words_year_numbering(struct text *text, uint64_t rocks)
 {
     if (rocks > 0)
-        ceduo_text_format(text, _("Years are counted from today, with %llu rocks in each; the worst is the worst of these."),
+        ceduo_text_format(text, _("Years are counted from today, with %llu rocks in each; the worst is that of these years."),
                           (unsigned long long)rocks);
     else
         ceduo_text_append(text, _("Years are counted from today."));
@@ -114,14 +114,14 @@ static void append_leaders(struct text *text, const struct ceduo_scene *scene, c
 
 /* Append "In years 1 to 25 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
 static void append_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, bool rotation,
-                        const char *when)
+                        const char *period_name)
 {
     const struct ceduo_leader *leader = rotation ? &v->rotation : &v->today;
     const char *rocks = v->accepted ? _("dangerous rocks") : _("rocks");
     double mean = get_mean(v, rotation, leader->best);
     LOCAL_TEXT(names);
     LOCAL_TEXT(numbers);
-    ceduo_text_format(text, "%s ", when);
+    ceduo_text_format(text, "%s ", period_name);
     append_leaders(&names, scene, v, leader, rotation, true);
     append_leaders(&numbers, scene, v, leader, rotation, false);
     if (leader->rivals + 1 == v->n && leader->equal)
@@ -140,22 +140,22 @@ static void append_best(struct text *text, const struct ceduo_scene *scene, cons
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
 {
     if (v->too_few_arrivals)
-        ceduo_text_append(text, _("The forest cannot be assessed: no rock arrives, even without it."));
+        ceduo_text_append(text, _("The forest cannot be assessed: no rock arrives, even without forest."));
     LOCAL_TEXT(period);
     ceduo_text_format(&period, _("In years %u to %u"), get_window(v)->first, get_window(v)->last);
-    const char *when = period.bytes;
+    const char *period_name = period.bytes;
     bool years = v->rotation.known && !v->rotation.uneven && get_window(v)->kind != CEDUO_WINDOW_CONSTANT;
     bool today = v->today.known && !v->today.uneven;
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
     if (years && today && a->best == b->best && a->rivals == 0 && b->rivals == 0) {
         /* one option is clearly best over the years and today */
-        ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), when,
+        ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), period_name,
                           NAME_OF(&scene->options[a->best]), v->accepted ? _("dangerous rocks") : _("rocks"),
                           get_mean(v, true, a->best), get_mean(v, false, a->best));
         return;
     }
     if (years)
-        append_best(text, scene, v, true, when);
+        append_best(text, scene, v, true, period_name);
     if (years && today)
         ceduo_text_append_char(text, '\n');
     if (today)
@@ -168,7 +168,7 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 
 void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
-    const struct ceduo_alternative_energy *o = &r->options[option].others[control];
+    const struct ceduo_alternative_energy *o = &r->options[option].alternatives[control];
     const struct ceduo_arrivals *a = &o->arrivals;
     const char *law = ceduo_words_law(ceduo_energy_words.names[o->model]);
     if (!o->known || !o->stems)
@@ -178,27 +178,26 @@ void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r
         ceduo_text_format(text, _("With the energy law %s no rock arrives."), law);
         return;
     }
-    const char *mean = SIG(energy.value, 3), *half_width = SIG(energy.half_width, 2),
-               *reach = INTERVAL(ceduo_measure_arriving(a));
+    const char *mean = WITH_ERROR(energy, " "), *reach = INTERVAL(ceduo_measure_arriving(a));
     const struct ceduo_control *c = &r->scene->controls[control];
     if (isnan(c->accepted))
-        ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
-                          mean, half_width);
+        ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s kJ."), law, reach, mean);
     else
         ceduo_text_format(text,
                           _("With the energy law %s: %s of 1000 arrive, %s with more than the accepted energy; their mean is "
-                            "%s \xc2\xb1%s kJ."),
-                          law, reach, INTERVAL(ceduo_measure_exceeding(c, a)), mean, half_width);
+                            "%s kJ."),
+                          law, reach, INTERVAL(ceduo_measure_exceeding(c, a)), mean);
     if (ceduo_rocks_released(a) < ceduo_result_rocks(r))
         ceduo_text_append_joined(text, " ", _("Under this law the first %llu rocks alone were simulated."),
                                  (unsigned long long)ceduo_rocks_released(a));
 }
 
-static double get_share(const struct ceduo_result *r, size_t option, bool by_other_law)
+static double get_share(const struct ceduo_result *r, size_t option, bool by_alternative_law)
 {
-    const struct ceduo_alternative_energy *o = &r->options[option].others[r->last_control];
+    const struct ceduo_alternative_energy *o = &r->options[option].alternatives[r->last_control];
     const struct ceduo_arrivals *other_arrivals = o->known ? &o->arrivals : NULL;
-    return 1000 * ceduo_share_judged(by_other_law ? other_arrivals : ceduo_result_wooded(r, option, r->last_control)).mean;
+    return 1000 *
+           ceduo_share_judged(by_alternative_law ? other_arrivals : ceduo_result_wooded(r, option, r->last_control)).mean;
 }
 
 void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_sentence_sink *sink,
@@ -216,8 +215,8 @@ void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo
                               remaining);
             i = v->reversals_count;
         } else {
-            bool stems = r->options[a].others[r->last_control].stems;
-            const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].others[r->last_control];
+            bool stems = r->options[a].alternatives[r->last_control].stems;
+            const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].alternatives[r->last_control];
             ceduo_text_format(&sentence,
                               _("Ranking of '%s' and '%s' depends on the energy law. By the law of the scene %.0f and %.0f of "
                                 "1000, by %s %.0f and %.0f."),

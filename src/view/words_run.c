@@ -42,20 +42,20 @@ static void warn_ground(const struct ceduo_result *r, ceduo_sentence_sink *sink,
         enum ceduo_terrain terrain = ceduo_terrain(bare);
         LOCAL_TEXT(name);
         ceduo_words_place(&name, &r->scene->controls[c]);
-        const char *where = ceduo_text_string(&name);
+        const char *control_name = ceduo_text_string(&name);
         if (terrain == CEDUO_TERRAIN_BENCH)
             ceduo_words_format(
                 sink, context,
                 _("%s: few rocks arrive without forest, though it lies under a reach angle of %.0f\xc2\xb0. A bench of "
                   "%.0f m may hold them: check on the ground that it does."),
-                where, t->reach * DEGREES, t->bench);
+                control_name, t->reach * DEGREES, t->bench);
         if (terrain == CEDUO_TERRAIN_FAR)
             ceduo_words_format(
                 sink, context,
                 _("%s: %.0f of 1000 rocks arrive without forest, though it lies under a shadow angle of only "
                   "%.0f\xc2\xb0. Evans and Hungr (1993) suggest 27.5\xc2\xb0 as the smallest: check the friction of "
                   "the ground."),
-                where, ceduo_measure_arriving(bare).value, t->shadow * DEGREES);
+                control_name, ceduo_measure_arriving(bare).value, t->shadow * DEGREES);
         if (speed > CEDUO_SPEED_USUAL)
             ceduo_words_format(sink, context,
                                r->scene->simulation.law == CEDUO_LAW_LUMPED
@@ -63,13 +63,13 @@ static void warn_ground(const struct ceduo_result *r, ceduo_sentence_sink *sink,
                                        "lumped has no limit of speed on long slopes: use crsp.")
                                    : _("%s: the mean speed without forest is %.0f m/s, and more than %.0f is unusual. Check "
                                        "roughness and friction of the ground."),
-                               where, speed, CEDUO_SPEED_USUAL);
+                               control_name, speed, CEDUO_SPEED_USUAL);
         if (height > CEDUO_HEIGHT_USUAL)
             ceduo_words_format(
                 sink, context,
                 _("%s: 1 rock in 20 passes more than %.0f m above the ground without forest, and more than %.0f m is unusual. "
                   "Check roughness and restitution of the ground, and the profile."),
-                where, height, CEDUO_HEIGHT_USUAL);
+                control_name, height, CEDUO_HEIGHT_USUAL);
     }
 }
 
@@ -87,7 +87,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
         }
         if (fewest < CEDUO_ARRIVALS_MIN)
             ceduo_words_format(sink, context,
-                               _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
+                               _("At %g m only %llu rocks arrive: the mean energy there was left out of the tolerance."),
                                result->scene->controls[i].x_given, (unsigned long long)fewest);
     }
     warn_ground(result, sink, context);
@@ -115,11 +115,9 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
             if (!ceduo_is_close_call(a))
                 continue;
             if (result->scene->blocks_count > 0)
-                ceduo_words_format(sink, context,
-                                   _("%s, %g m: too close to call if a rock above the limit arrives at most once in %g years "
-                                     "today; simulate more rocks."),
-                                   NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given,
-                                   ceduo_accepted_return(control));
+                ceduo_words_format(
+                    sink, context, _("%s, %g m: too close to the limit of one rock in %g years today; simulate more rocks."),
+                    NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, ceduo_accepted_return(control));
             else
                 ceduo_words_format(
                     sink, context,
@@ -128,5 +126,5 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
         }
     warn_lost(result, sink, context);
     if (remarks->ground_assumed)
-        ceduo_words_format(sink, context, _("The slope's file says no ground: talus is assumed everywhere."));
+        ceduo_words_format(sink, context, _("The slope file gives no ground: talus is assumed everywhere."));
 }

@@ -6,8 +6,8 @@
 #include <math.h>
 
 #include "ceduo/ceduo.h"
+#include "core/forest/forest.h"
 #include "core/walk/ground.h"
-#include "core/wood/wood.h"
 #include "physics/paper_site.h"
 
 /* ---- refused scenes ---- */
@@ -154,9 +154,9 @@ static void expect_no_blocks(void)
 TEST(an_invalid_rock_has_no_figures)
 {
     paper_site_init(&site);
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     site.control.measured_speed = 10;
-    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &trajectory, NULL), CEDUO_OK);
     site.scene.rock.diameter.mean = 0;
     struct ceduo_stand_result stand = ceduo_assess_stand(&site.scene, &site.belts[0]);
     assert_true(isnan(stand.adc_m) && isnan(stand.contacts) && isnan(stand.dissipated));
@@ -164,7 +164,7 @@ TEST(an_invalid_rock_has_no_figures)
     struct ceduo_index index = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
     assert_true(isnan(index.measured));
     EXPECT(index.contact, !=, CEDUO_PASS);
-    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
+    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &trajectory, NULL), CEDUO_BAD_ROCK);
     assert_null(ceduo_tracer_create(&site.scene, NULL));
     expect_no_blocks();
     /* valid itself, but too heavy at the size of the others */
@@ -298,17 +298,17 @@ TEST(tables_of_stools_have_a_limit)
     paper_site_init(&site);
     const struct ceduo_simulation *simulation = &site.scene.simulation;
     const struct ceduo_rock rock = {.mean_diameter = .68};
-    struct wood wood;
-    assert_true(ceduo_wood_init(&wood, simulation, &site.option, &rock));
-    EXPECT(wood.met_mask, >=, 63);
-    EXPECT(wood.met_mask, <, 1000);
-    ceduo_wood_release(&wood);
+    struct forest forest;
+    assert_true(ceduo_forest_init(&forest, simulation, &site.option, &rock));
+    EXPECT(forest.met_mask, >=, 63);
+    EXPECT(forest.met_mask, <, 1000);
+    ceduo_forest_release(&forest);
     site.belts[0].stand.stools_per_ha = 1e6;
     site.plots[0].shoots.per_ha = 1e10;
     site.belts[0].stand.spacing = 20;
-    assert_true(ceduo_wood_init(&wood, simulation, &site.option, &rock));
-    assert_int_equal(wood.met_mask, ((size_t)1 << 20) - 1); /* more than the million stems of a way */
-    ceduo_wood_release(&wood);
+    assert_true(ceduo_forest_init(&forest, simulation, &site.option, &rock));
+    assert_int_equal(forest.met_mask, ((size_t)1 << 20) - 1); /* more than a million stems on one trajectory */
+    ceduo_forest_release(&forest);
 }
 
 /* ---- index ---- */

@@ -70,8 +70,7 @@ static void on_end(void *context, size_t lane, enum ceduo_end end)
     w->batch->contacts += walker->contacts;
     w->batch->ends[end]++;
     w->batch->uphill += end == CEDUO_LEFT_SLOPE && !(walker->flight.x > 0);
-    w->batch->early +=
-        end == CEDUO_STOPPED_BY_STEMS && walker->flight.x < walker->release->x.mean + CEDUO_EARLY_M;
+    w->batch->early += end == CEDUO_STOPPED_BY_STEMS && walker->flight.x < walker->release->x.mean + CEDUO_EARLY_M;
     w->ends[walker->number - w->from] = (unsigned char)end;
     const struct marks *marks = &w->run->prepared.marks;
     for (size_t m = walker->next_mark; m < marks->n; m++) /* count the end at each control that the rock did not reach */
@@ -207,10 +206,10 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     for (size_t i = 0; i < run->lanes; i++)
         w->walkers[i] = (struct walker){
             .cross = on_cross, .context = w, .arrivals_only = run->def.arrivals_only, .cancel = run->def.cancel};
-    if (!run->prepared.wood.bare && !(w->stems = calloc(run->lanes, sizeof *w->stems)))
+    if (!run->prepared.forest.bare && !(w->stems = calloc(run->lanes, sizeof *w->stems)))
         return false;
     for (size_t i = 0; w->stems && i < run->lanes; i++) {
-        if (!ceduo_stems_init(&w->stems[i], &run->prepared.wood, run->def.kernel))
+        if (!ceduo_stems_init(&w->stems[i], &run->prepared.forest, run->def.kernel))
             return false;
         w->walkers[i].stems = &w->stems[i];
     }

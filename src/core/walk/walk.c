@@ -16,8 +16,8 @@ static const struct ceduo_release *choose_release(const struct walker *w, const 
     double all = 0;
     for (size_t k = 0; k < n && n > 1; k++)
         all += releases[k].share;
-    double left = n > 1 ? all * random_open(w->seed, w->number, 5, RANDOM_RELEASE) : 0;
-    while (i + 1 < n && (left -= releases[i].share) > 0)
+    double remaining = n > 1 ? all * random_open(w->seed, w->number, 5, RANDOM_RELEASE) : 0;
+    while (i + 1 < n && (remaining -= releases[i].share) > 0)
         i++;
     return &releases[i];
 }
@@ -92,8 +92,9 @@ bool ceduo_walk_is_identical(const struct prepared_scene *prepared)
     const struct ground *g = &prepared->ground;
     size_t n;
     const struct ceduo_release *r = ceduo_scene_releases(&prepared->scene, &n);
-    return prepared->scene.releases_count <= 1 && !ceduo_scene_rock_varies(&prepared->scene) && !g->rn_varies && !g->rt_varies && !(r->x.spread > 0) &&
-           !(r->height.spread > 0) && !(r->vx.spread > 0) && !(r->vz.spread > 0) && !(r->spin.spread > 0);
+    return prepared->scene.releases_count <= 1 && !ceduo_scene_rock_varies(&prepared->scene) && !g->rn_varies &&
+           !g->rt_varies && !(r->x.spread > 0) && !(r->height.spread > 0) && !(r->vx.spread > 0) && !(r->vz.spread > 0) &&
+           !(r->spin.spread > 0);
 }
 
 void ceduo_walk_release_identical(struct walker *w, const struct walker *first, uint64_t number)
@@ -163,9 +164,9 @@ bool ceduo_walk_roll(struct walker *w, struct rock_state *c, const struct rollin
     c->flight = w->flight;
     c->along = w->along;
     c->off = 0;
-    c->flies = outcome == TOOK_OFF;
+    c->flies = outcome == LIFTED_OFF;
     c->rolled = outcome == ROLLED;
-    return outcome == TOOK_OFF || outcome == ROLLED;
+    return outcome == LIFTED_OFF || outcome == ROLLED;
 }
 
 FORCE_INLINE void set_velocity(const struct walker *w, struct rock_state *c)

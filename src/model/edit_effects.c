@@ -232,16 +232,16 @@ static void follow_cylinder(struct follow *f)
 static void follow_share(struct follow *f)
 {
     const struct ceduo_scene *scene = &f->d->file.scene;
-    double now, others = 0;
+    double now, remaining = 0;
     if (strcmp(f->list, "release") != 0 || strcmp(f->key, "share") != 0 || f->index >= scene->releases_count ||
         ceduo_number_read(f->value, &now) != CEDUO_NUMBER_GOOD || !(now > 0 && now < 1))
         return;
     for (size_t i = 0; i < scene->releases_count; i++)
-        others += i == f->index ? 0 : scene->releases[i].share;
+        remaining += i == f->index ? 0 : scene->releases[i].share;
     for (size_t i = 0; i < scene->releases_count; i++)
         if (i != f->index)
             ceduo_changes_set(&f->changes, ceduo_arena_format(f->arena, "release[%zu].share", i), "%s",
-                              rounded(f, scene->releases[i].share / others * (1 - now), 4));
+                              rounded(f, scene->releases[i].share / remaining * (1 - now), 4));
     if (scene->releases_count > 1)
         ceduo_text_append(&f->followed, _("the other shares follow, so that all add up to 1"));
 }
@@ -256,7 +256,7 @@ static void keep_one_of_all(struct follow *f)
     const char *dot = strrchr(f->path, '.'), *key = dot ? dot + 1 : f->path;
     const char *map = ceduo_arena_copy(f->arena, f->path, dot ? (size_t)(dot - f->path) : 0);
     const struct field *holder = ceduo_schema_row(map), *field = ceduo_schema_at(f->path);
-    const char *alternative = holder && holder->object && field ? ceduo_schema_other(holder->object, key) : NULL;
+    const char *alternative = holder && holder->object && field ? ceduo_schema_alternative(holder->object, key) : NULL;
     if (alternative && !ceduo_schema_unit(holder->object, field))
         drop_entry(f, map, alternative);
     for (size_t i = 0; strcmp(map, "rock") == 0 && i < 3 && rock_keys[sphere][i]; i++)
