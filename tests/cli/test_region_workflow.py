@@ -216,7 +216,7 @@ def test_killed():
         run.wait()
         done, pieces = len(list(to.glob("rows/*.csv"))), len(list(to.glob("pieces/*.csv")))
         expect(0 < done < pieces, f"killed after {done} of {pieces} jobs")
-        expect_in("--unlock", command(to, "snakemake", "--cores", "2", status=1), "locked")
+        expect_in("--unlock", command(to, "snakemake", "--cores", "2", "--rerun-incomplete", status=1), "locked")
         snakemake(to, "--cores", "2", "--unlock")
         jobs = snakemake(to, "--cores", "2", "--rerun-incomplete")
         expect("valley" not in jobs and "profiles" not in jobs and sum(job.startswith("run") for job in jobs) < pieces, "jobs", jobs)
