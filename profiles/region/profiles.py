@@ -31,14 +31,15 @@ def read_codes(path):
     return source.ReadAsArray().astype(int)
 
 def read_roads(path):
-    """Return points at most a quarter of a cell apart: column, row, number of the road, distance along it."""
+    """Return the points of roads on the terrain, at most a quarter of a cell apart: column, row, number of the road, distance along it."""
     source, roads = gdal.VectorTranslate("", path, format="Memory", dstSRS=f"EPSG:{EPSG}"), []
     for feature in source.GetLayer(0):
         for line in ogr.ForceToMultiLineString(feature.GetGeometryRef().Clone()):
             line.Segmentize(CELL / 4)
             p = (np.array(line.GetPoints())[:, :2] - (T[0], T[3])) / (T[1], T[5]) - .5
-            roads.append(np.column_stack([p, np.full(len(p), len(roads)), distances(p)]))
-    return np.concatenate(roads)
+            inside = ((p > 0) & (p < np.array(z.shape)[::-1] - 1)).all(axis=1)
+            roads.append(np.column_stack([p, np.full(len(p), len(roads)), distances(p)])[inside])
+    return np.concatenate(roads) if any(map(len, roads)) else sys.exit(f"{path}: no road lies on the terrain")
 
 def distances(p):
     return CELL * np.append(0, np.cumsum(np.hypot(*np.diff(p, axis=0).T)))
@@ -135,8 +136,10 @@ if set(codes[~np.isnan(z)].tolist()) - set(grounds):
 slope = np.hypot(*np.gradient(z, CELL))
 face = (read_codes(C["faces"]) > 0 if C["faces"] else slope >= np.tan(np.radians(C["face_deg"]))) & ~np.isnan(slope)
 start, top, area = np.argwhere(face)[:, ::-1], z[face], CELL ** 2 * np.hypot(1, slope[face])
-roads, near, points, lines, drained = read_roads(C["road"]), np.full(z.shape, -1), defaultdict(list), [], None
+roads, near, points, lines = read_roads(C["road"]), np.full(z.shape, -1), defaultdict(list), []
 number = (roads[:, 3] // C["stretch_m"]).astype(int)
+_, same, count = np.unique(np.column_stack([roads[:, 2], number]), axis=0, return_inverse=True, return_counts=True)
+roads, number = roads[count[same] > 1], number[count[same] > 1]  # an end of one point is no stretch
 stretch_of = [f"{road:.0f}-{n * C['stretch_m']:05.0f}" for road, n in zip(roads[:, 2], number)]
 for i, stretch in enumerate(stretch_of):
     points[stretch].append(i)

@@ -38,6 +38,15 @@ codes[:, :8] = 3
 source.GetRasterBand(1).WriteArray(codes)
 """
 
+POLYGONS = """\
+from osgeo import gdal, ogr
+source = gdal.Open("codes.tif")
+to = ogr.GetDriverByName("GPKG").CreateDataSource("polygons.gpkg")
+layer = to.CreateLayer("stands", source.GetSpatialRef())
+layer.CreateField(ogr.FieldDefn("code", ogr.OFTInteger))
+gdal.Polygonize(source.GetRasterBand(1), None, layer, 0)
+"""
+
 
 def rows(path):
     with open(path, newline="", encoding="utf-8") as file:
@@ -120,12 +129,13 @@ def test_plane():
     with Folder() as f:
         to, angle = region(f), math.radians(50)
         command(to, PYTHON, "-c", PLANE.format(tan=math.tan(angle)))
-        ends = [[400000 + 5 * 5.5, 5000000 - 5 * 55.5], [400000 + 5 * 35.5, 5000000 - 5 * 55.5]]
+        ends = [[400000 + 5 * 5.5, 5000000 - 5 * 55.5], [400000 + 5 * 45.5, 5000000 - 5 * 55.5]]  # 28 m of it beside the terrain
         f.write("region/road.csv", 'wkt,name\n"LINESTRING ({} {}, {} {})",road\n'.format(*ends[0], *ends[1]))
         command(to, "ogr2ogr", "-a_srs", "EPSG:32632", "road.gpkg", "road.csv", "-oo", "GEOM_POSSIBLE_NAMES=wkt")
         change(to / "config.yaml", ("road: road.geojson", "road: road.gpkg"))
         command(to, PYTHON, "profiles.py", (to / "config.yaml").read_text())
         expect_equal({s["reason"] for s in rows(to / "stretches.csv")}, {"ok"}, "reasons")
+        expect_equal({line["stretch"] for line in rows(to / "lines.csv")}, {f"0-{15 * i:05}" for i in range(12)}, "stretches")
         lines = [line for line in rows(to / "lines.csv") if line["stretch"] == "0-00015" and line["way"] == "steepest"]
         # Three columns of 57 cells: 55 above the road, that of the road and the one beside it.
         area = 3 * 57 * 25 / math.cos(angle)
@@ -142,7 +152,7 @@ def test_plane():
 
 
 def test_refused():
-    """Degrees, rotated or oblong cells and another grid are refused, and the command that is proposed mends the grid"""
+    """Degrees, oblong cells and another grid are refused; the proposed command mends the grid; polygons give the same lines"""
     with Folder() as f:
         to = region(f, 100)
         command(to, PYTHON, "valley.py", "100", "terrain.tif", "stands.tif", "road.geojson")
@@ -159,6 +169,10 @@ def test_refused():
         expect_in("coarse.tif: not on the grid of the terrain; try: gdalwarp", said)
         command(to, *said.split("try: ")[1].split())
         command(to, PYTHON, "profiles.py", config.replace("coarse.tif", "codes.tif"))
+        raster = [(to / name).read_bytes() for name in ("lines.csv", "stretches.csv")]
+        command(to, PYTHON, "-c", POLYGONS)
+        command(to, PYTHON, "profiles.py", config.replace("coarse.tif", "polygons.gpkg"))
+        expect_equal([(to / name).read_bytes() for name in ("lines.csv", "stretches.csv")], raster, "stands as polygons")
         said = command(to, PYTHON, "profiles.py", config.replace("coarse.tif", "codes.tif").replace("\n  3:", "\n  9:"), status=1)
         expect_in("codes.tif: a code is not in `codes` of config.yaml, which has [0, 1, 2, 9]", said)
 
