@@ -320,7 +320,12 @@ enum ceduo_status ceduo_simulate(ceduo_handle handle, uint64_t rocks, unsigned t
     if (!scene)
         return CEDUO_BAD_ARGUMENT;
     enum ceduo_status status = refresh(scene);
-    scene->rocks = rocks > 0 ? rocks : scene->changed.scene.simulation.rocks;
+    rocks = rocks > 0 ? rocks : scene->changed.scene.simulation.rocks;
+    if (rocks < scene->rocks) { /* runs of the pool never get shorter */
+        ceduo_pool_free(scene->pool);
+        scene->pool = NULL;
+    }
+    scene->rocks = rocks;
     scene->threads = threads > 0 ? threads : 1;
     return end_call(scene, status == CEDUO_OK ? simulate(scene, false) : status);
 }

@@ -319,5 +319,7 @@ enum ceduo_figure_found ceduo_figures_get(const struct ceduo_figure *figures, co
         if (!find_row(figures, cell.object, cell.scale, &step, &cell))
             return CEDUO_NO_FIGURE;
     }
-    return offset < length || !cell.row ? CEDUO_NO_FIGURE : get_with_interval(&cell, value);
+    if (length == 0 || offset < length)
+        return CEDUO_NO_FIGURE;
+    return cell.row ? get_with_interval(&cell, value) : CEDUO_NOT_A_NUMBER;
 }
