@@ -7,8 +7,8 @@
 
 #include "status.h"
 
-/* A scene behind a number, for Python, R and every language that can call C. These functions never change their types. All
- * strings are UTF-8, numbers in text have a dot, and units are those of files and results (kJ, kg, m).
+/* A handle is a number that stands for a scene. Python, R and every language that can call C use these functions, whose types
+ * never change. All strings are UTF-8, numbers in text have a dot, and units are those of files and results (kJ, kg, m).
  *
  *     ceduo_handle h = ceduo_open("paper-site");
  *     double share[3];
@@ -34,7 +34,7 @@ enum ceduo_status ceduo_set(ceduo_handle handle, const char *path, const char *t
 enum ceduo_status ceduo_simulate(ceduo_handle handle, uint64_t rocks, unsigned threads);
 
 /* Get a number and the ends of its 95 % interval (NaN: none): value[0], value[1], value[2]. `path` is the path of a figure in
- * the JSON of a result, "options[0].controls[0].wooded.energy_kJ.p95", where an item may have its name in the brackets, or else
+ * the JSON of a result, "options[0].controls[0].wooded.energy_kJ.p95" (an item may have its name in the brackets), or else
  * that of a value of the scene. A figure that is null is NaN; a flag is 0 or 1. A figure is an error before ceduo_simulate(),
  * and after a later ceduo_set(). */
 enum ceduo_status ceduo_get(ceduo_handle handle, const char *path, double value[3]);

@@ -35,7 +35,7 @@ struct open_scene {
     struct ceduo_pool *pool;   /* keeps runs from one simulation to the next; refers to `changed` */
     struct ceduo_results results;
     struct ceduo_verdict verdict;
-    uint64_t rocks;       /* of the last simulation */
+    uint64_t rocks;       /* simulated last */
     unsigned threads;     /* likewise */
     bool simulated;       /* `results` belong to `changed` */
     bool years_simulated; /* `verdict` knows the years */
@@ -343,10 +343,8 @@ static bool get_parameter(struct open_scene *scene, const char *path, double val
 /* Read a figure of the results. Without results, only find out whether there is such a figure. */
 static enum ceduo_figure_found get_figure(const struct open_scene *scene, const char *path, double value[3])
 {
-    const struct ceduo_report report = {.file = &scene->changed,
-                                        .result = scene->results.result,
-                                        .verdict = &scene->verdict,
-                                        .work = scene->results.work};
+    const struct ceduo_report report = {
+        .file = &scene->changed, .result = scene->results.result, .verdict = &scene->verdict, .work = scene->results.work};
     const struct ceduo_place place = {.report = &report};
     return ceduo_figures_get(ceduo_result_figures, scene->simulated ? &place : NULL, path, value);
 }
@@ -373,10 +371,10 @@ static enum ceduo_status get(struct open_scene *scene, const char *path, double 
     if ((found == CEDUO_FIGURE_FOUND && scene->simulated) || get_parameter(scene, path, value))
         return CEDUO_OK;
     return fail(CEDUO_BAD_ARGUMENT,
-                found == CEDUO_NO_FIGURE       ? "'%s' is neither a figure of a result nor a number of the scene"
-                : found == CEDUO_NOT_A_NUMBER  ? "'%s' is not a number"
-                : scene->simulated             ? "'%s': there is no such item"
-                                               : "'%s': the scene is not simulated as it is now",
+                found == CEDUO_NO_FIGURE      ? "'%s' is neither a figure of a result nor a number of the scene"
+                : found == CEDUO_NOT_A_NUMBER ? "'%s' is not a number"
+                : scene->simulated            ? "'%s': there is no such item"
+                                              : "'%s': the scene is not simulated as it is now",
                 path);
 }
 
@@ -385,7 +383,8 @@ enum ceduo_status ceduo_get(ceduo_handle handle, const char *path, double value[
     struct open_scene *scene = begin_call(handle, false);
     if (!scene)
         return CEDUO_BAD_ARGUMENT;
-    return end_call(scene, path && value ? get(scene, path, value) : fail(CEDUO_BAD_ARGUMENT, "the path or the place is missing"));
+    return end_call(scene,
+                    path && value ? get(scene, path, value) : fail(CEDUO_BAD_ARGUMENT, "the path or the place is missing"));
 }
 
 /* ---- samples ---- */
@@ -426,7 +425,8 @@ static int64_t copy_samples(const struct open_scene *scene, int option, size_t c
     const struct ceduo_run *run = ceduo_pool_find(scene->pool, option < 0 ? NULL : &s->options[option]);
     const double *values = run ? ceduo_run_samples(run, control, q->sample) : NULL;
     if (!values) {
-        fail(CEDUO_BAD_ARGUMENT, run ? "the scene has no blocks, and so no weights" : "rocks of this option were not simulated");
+        fail(CEDUO_BAD_ARGUMENT,
+             run ? "the scene has no blocks, and so no weights" : "rocks of this option were not simulated");
         return -1;
     }
     uint64_t rocks = ceduo_run_rocks(run);
