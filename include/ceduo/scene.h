@@ -149,7 +149,7 @@ struct ceduo_regulation_item {
     size_t species_count; /* 0: all species without an item of their own */
     char **species;       /* names in ceduo_species_list() */
     int system;           /* only for this system; -1: any */
-    double least, most;   /* standards per ha, or years; NaN: no maximum */
+    double min, max;      /* standards per ha, or years; NaN: no maximum */
     char *article;        /* and the act that contains it */
     unsigned year;        /* of the act */
 };
@@ -163,7 +163,7 @@ struct ceduo_regulation {
 
 /* Compliance of a coppice with its regulation. */
 struct ceduo_compliance {
-    const struct ceduo_regulation *of;                              /* NULL: no regulation, or no coppice */
+    const struct ceduo_regulation *regulation;                      /* NULL: no regulation, or no coppice */
     const struct ceduo_regulation_item *standards_item, *turn_item; /* NULL: no item for this species */
     double standards;             /* per ha, left by a cut; all trees if the stand does not specify them */
     double turn;                  /* years: age of the oldest shoots at a cut; NaN: the stand is never cut */

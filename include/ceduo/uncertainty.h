@@ -64,7 +64,7 @@ enum ceduo_uncertainty_kind {
 #define CEDUO_UNCERTAINTY_YEARS_MAX      60
 #define CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS 1000
 
-struct ceduo_results; /* question.h */
+struct ceduo_results; /* request.h */
 
 struct ceduo_uncertainty_def {
     const struct ceduo_scene *scene;

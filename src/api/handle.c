@@ -300,9 +300,9 @@ enum ceduo_status ceduo_set(ceduo_handle handle, const char *path, const char *t
 static enum ceduo_status simulate(struct open_scene *scene, bool years)
 {
     struct ceduo_request request = ceduo_request_default(&scene->changed.scene);
-    request.rocks = request.run.rocks_most = scene->rocks;
+    request.rocks = request.run.rocks_max = scene->rocks;
     request.run.threads = scene->threads;
-    request.run.other_energy = true;
+    request.run.alternative_energy = true;
     if (years)
         ceduo_verdict_add_years(&request);
     free_results(scene);

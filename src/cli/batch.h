@@ -3,7 +3,7 @@
 #define CEDUO_BATCH_H
 
 #include "arguments.h"
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 #include "study/snapshot.h"
 
 /* ---- commands: print to standard output or --output, and return the exit status ---- */

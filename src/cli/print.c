@@ -49,7 +49,7 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
         q.question.rotations = a->details;
         q.question.block_rocks = a->details ? BLOCK_ROCKS : 0;
     }
-    q.question.run.other_energy = !page || a->details;
+    q.question.run.alternative_energy = !page || a->details;
     enum ceduo_status status = ceduo_query_run(&q);
     if (status == CEDUO_OK && page)
         status = ceduo_query_add_uncertainty(&q, a, file);
@@ -194,7 +194,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
         q.pictures = true;
         q.envelopes = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS;
         q.trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0;
-        q.question.run.other_energy = false;
+        q.question.run.alternative_energy = false;
         q.question.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
         status = ceduo_query_run(&q);
     }

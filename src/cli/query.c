@@ -165,7 +165,7 @@ void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file, 
     struct ceduo_request question = ceduo_request_default(&bare);
     struct ceduo_results answer;
     question.rocks = bare.simulation.rocks < CHECK_ROCKS ? bare.simulation.rocks : CHECK_ROCKS;
-    question.run.rocks_most = question.rocks;
+    question.run.rocks_max = question.rocks;
     question.run.threads = (unsigned)a->threads;
     question.run.cancel = ceduo_interrupt_flag();
     if (ceduo_simulate_request(&question, NULL, &answer) == CEDUO_OK) {
@@ -191,10 +191,10 @@ void ceduo_query_begin(struct query *q, const struct arguments *a, const struct 
     *q = (struct query){.progress = ceduo_progress_begin(a), .question = ceduo_request_default(&file->scene)};
     struct ceduo_request *question = &q->question;
     question->rocks = a->rocks > 0 ? a->rocks : a->tolerance > 0 ? CEDUO_ROCKS_MAX : file->scene.simulation.rocks;
-    question->run.rocks_most = question->rocks;
+    question->run.rocks_max = question->rocks;
     question->tolerance = a->tolerance;
     question->run.threads = (unsigned)a->threads;
-    question->run.other_energy = true;
+    question->run.alternative_energy = true;
     question->run.cancel = ceduo_interrupt_flag();
     question->run.progress = show_rock_count;
     question->run.context = &q->progress;

@@ -17,7 +17,7 @@
 
 #include "base/hash.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "ceduo/status.h"
 #include "io/file.h"
 #include "messages.h"

@@ -8,7 +8,7 @@
 #include <unistr.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
 #include "csv.h"
 #include "file.h"

@@ -306,7 +306,7 @@ static bool check_each(const struct entry *e)
 static bool check_released(const struct entry *e)
 {
     const struct observed_values *values = e->values;
-    unsigned long long observed = e->kind_row->list ? values->values_count : values->count, released = values->of;
+    unsigned long long observed = e->kind_row->list ? values->values_count : values->count, released = values->released_count;
     /* untaken: complaint */
     return released == 0 || observed <= released ||
            ceduo_reject(e->v, e->path, "of", _("%llu observed, but only %llu released; correct one"), observed, released);
@@ -379,7 +379,7 @@ static void set_observation(const struct entry *e, struct ceduo_observation *o)
     o->mean = values->mean * scale;
     o->sd = values->sd * scale;
     o->count = values->count;
-    o->released_count = values->of;
+    o->released_count = values->released_count;
     o->share_seen = values->share_seen;
 }
 

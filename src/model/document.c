@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "io/file.h"
 
 /* ---- states ---- */
@@ -92,8 +92,8 @@ bool ceduo_document_unsaved(const struct document *d)
 const struct node *ceduo_document_parse(struct document *d, const char *name, const char *text)
 {
     /* copy of the path: saving elsewhere must not change how typed paths are resolved */
-    const struct source *source =
-        ceduo_source_copy(&d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .beside = d->path});
+    const struct source *source = ceduo_source_copy(
+        &d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .base_file = d->path});
     return ceduo_yaml_read(&d->file.arena, source, &d->problems);
 }
 

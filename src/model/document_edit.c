@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "io/file.h"
 
 /* ---- an edit under way ---- */

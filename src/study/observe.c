@@ -218,7 +218,7 @@ static enum ceduo_status simulate_setting(const struct setting *s, const struct 
     }
     struct ceduo_run_def def = ceduo_run_def_default(&f->scene);
     def.option = bare ? NULL : option;
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     def.cancel = cancel;
     status = status == CEDUO_OK ? ceduo_run_create(&def, &f->run) : status;
     return status == CEDUO_OK ? ceduo_run_extend(f->run, rocks) : status;

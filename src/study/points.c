@@ -89,7 +89,7 @@ static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_vari
     variant->run = ceduo_run_def_default(point->scene);
     variant->run.option = point->forest;
     variant->skip = p->def->rocks == 0;
-    variant->rocks = variant->run.rocks_most = point->slot > 0 ? CEDUO_UNCERTAINTY_YEAR_ROCKS : p->def->rocks;
+    variant->rocks = variant->run.rocks_max = point->slot > 0 ? CEDUO_UNCERTAINTY_YEAR_ROCKS : p->def->rocks;
     variant->run.arrivals_only = true;
     variant->run.cancel = p->def->cancel;
     if (status == CEDUO_OK && variant->skip)

@@ -13,7 +13,7 @@
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/assess.h"
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 #include "check_study.h"
 #include "inputs.h"
 #include "points.h"
@@ -402,7 +402,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
     struct ceduo_results made = {0};
     const struct ceduo_results *own = def->own ? def->own : &made;
     size_t options = def->scene->options_count;
-    q.rocks = q.run.rocks_most = def->own_rocks > 0 ? def->own_rocks : def->rocks;
+    q.rocks = q.run.rocks_max = def->own_rocks > 0 ? def->own_rocks : def->rocks;
     q.run.threads = def->threads;
     q.run.cancel = def->cancel;
     q.run.arrivals_only = true;

@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "base/hash.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 
 #define FLIGHT_POINTS 24 /* points of a parabola: enough for any screen */
 #define SEGMENTS_MAX  20000

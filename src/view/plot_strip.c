@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "plot.h"
 
 /* Strips along the slope: curves of height or energy of the passing rocks. */

@@ -168,7 +168,7 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 
 void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
-    const struct ceduo_alternative_energy *o = &r->options[option].others[control];
+    const struct ceduo_alternative_energy *o = &r->options[option].alternatives[control];
     const struct ceduo_arrivals *a = &o->arrivals;
     const char *law = ceduo_words_law(ceduo_energy_words.names[o->model]);
     if (!o->known || !o->stems)
@@ -194,11 +194,12 @@ void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r
                                  (unsigned long long)ceduo_rocks_released(a));
 }
 
-static double get_share(const struct ceduo_result *r, size_t option, bool by_other_law)
+static double get_share(const struct ceduo_result *r, size_t option, bool by_alternative_law)
 {
-    const struct ceduo_alternative_energy *o = &r->options[option].others[r->last_control];
+    const struct ceduo_alternative_energy *o = &r->options[option].alternatives[r->last_control];
     const struct ceduo_arrivals *other_arrivals = o->known ? &o->arrivals : NULL;
-    return 1000 * ceduo_share_judged(by_other_law ? other_arrivals : ceduo_result_wooded(r, option, r->last_control)).mean;
+    return 1000 *
+           ceduo_share_judged(by_alternative_law ? other_arrivals : ceduo_result_wooded(r, option, r->last_control)).mean;
 }
 
 void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_sentence_sink *sink,
@@ -216,8 +217,8 @@ void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo
                               remaining);
             i = v->reversals_count;
         } else {
-            bool stems = r->options[a].others[r->last_control].stems;
-            const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].others[r->last_control];
+            bool stems = r->options[a].alternatives[r->last_control].stems;
+            const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].alternatives[r->last_control];
             ceduo_text_format(&sentence,
                               _("Ranking of '%s' and '%s' depends on the energy law. By the law of the scene %.0f and %.0f of "
                                 "1000, by %s %.0f and %.0f."),

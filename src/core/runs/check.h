@@ -3,7 +3,7 @@
 #define CEDUO_CHECK_H
 
 #include "ceduo/blocks.h"
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 
 /* Check the input of a caller before use: pointers, counts, indices, windows. Each returns CEDUO_OK, CEDUO_BAD_ARGUMENT, or the
  * status of a bad scene. Requires arrays as long as their counts, which cannot be checked. */

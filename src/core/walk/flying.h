@@ -108,7 +108,7 @@ static inline void advance_stem(struct walker *w, int side)
 }
 
 /* Consume the next stem along +x (side 0) or -x. False if there is none, or if the trajectory is aborted. */
-static bool take_stem(struct walker *w, int side, struct stem *stem)
+static bool consume_stem(struct walker *w, int side, struct stem *stem)
 {
     bool known = w->stems->side[side].next_known;
     if (known)
@@ -165,7 +165,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
             continue;
         }
         struct stem stem;
-        if (!take_stem(w, side, &stem)) {
+        if (!consume_stem(w, side, &stem)) {
             if (w->aborted) {
                 fly(w, flight, &at_stem); /* report the marks before */
                 return true;

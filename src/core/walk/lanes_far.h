@@ -32,7 +32,7 @@ FORCE_INLINE unsigned chunks_touched(const struct lanes *k, const struct far_sea
         real height = heights_above(k, f, x, z);
         double t = (b[REAL_LANES].x - f->x) * f->inv;
         real next_height = shift_in(height, (f->z + (f->vz - k->g->half_g * t) * t) - b[REAL_LANES].z);
-        under |= (REGISTER & ~lane_bits(at_least(height, rise) & at_least(next_height, rise))) << offset;
+        under |= (REGISTER & ~lane_bits(greater_equal(height, rise) & greater_equal(next_height, rise))) << offset;
     }
     return under;
 }
@@ -45,7 +45,7 @@ FORCE_INLINE bool search_vertices(const struct lanes *k, struct far_search *f)
     for (unsigned offset = 0; offset < GROUND_GROUP; offset += REAL_LANES) {
         real x, z;
         load_pairs(to + offset, &x, &z);
-        under |= (REGISTER & ~lane_bits(at_least(heights_above(k, f, x, z), splat(0)))) << offset;
+        under |= (REGISTER & ~lane_bits(greater_equal(heights_above(k, f, x, z), splat(0)))) << offset;
     }
     under &= (1u << count) - 1;
     f->vertex += under ? (unsigned)__builtin_ctz(under) : count;

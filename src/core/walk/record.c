@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/parallel.h"
 #include "base/real.h"
 #include "scene/schema.h"

@@ -11,7 +11,7 @@
 #define STOP_ROUNDING (4 * DBL_EPSILON) /* of the coordinates: minimum distance to a stop */
 #endif
 
-enum roll_outcome { ROLLED, TOOK_OFF, STANDS, ROLLED_OUT, STOPPED };
+enum roll_outcome { ROLLED, LIFTED_OFF, STANDS, ROLLED_OUT, STOPPED };
 
 /* ---- rolling ---- */
 
@@ -123,7 +123,7 @@ static __attribute__((noinline)) enum stem_outcome roll_to_stem(struct walker *w
         if (r->dir > 0 ? !(x <= x_end) : !(x >= x_end))
             return NO_STEM;
         struct stem stem;
-        bool taken = take_stem(w, r->dir > 0 ? 0 : 1, &stem);
+        bool taken = consume_stem(w, r->dir > 0 ? 0 : 1, &stem);
         if (!taken && !w->aborted)
             continue;
         double z = ground_height(g, j, x), distance = ground_length(&g->segments[j], w->flight.x, w->flight.z, x, z);
@@ -161,7 +161,7 @@ static enum roll_outcome roll_over_vertex(struct walker *w, struct roll *r, stru
         *l = next_landing(g, &flight);
         if (!is_roll(w, &flight, flight.vz * b->c - flight.vx * b->s, l)) {
             w->flight = flight;
-            return TOOK_OFF;
+            return LIFTED_OFF;
         }
     }
     return ROLLED;

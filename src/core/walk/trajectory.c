@@ -32,7 +32,7 @@ struct ceduo_tracer *ceduo_tracer_create(const struct ceduo_scene *scene, const 
     if (!f)
         return NULL;
     if (ceduo_prepared_init(&f->prepared, scene, option) == CEDUO_OK &&
-        ceduo_stems_init(&f->stems, &f->prepared.wood, CEDUO_KERNEL_BEST))
+        ceduo_stems_init(&f->stems, &f->prepared.forest, CEDUO_KERNEL_BEST))
         return f;
     ceduo_tracer_free(f);
     return NULL;
@@ -46,7 +46,7 @@ enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *f, uint64_t rock, const 
     struct walker w = {.watch = watch,
                        .cross = store_crossing,
                        .context = &crossing_writer,
-                       .stems = f->prepared.wood.bare ? NULL : &f->stems};
+                       .stems = f->prepared.forest.bare ? NULL : &f->stems};
     if (crossings)
         memset(crossings, 0, scene->controls_count * sizeof *crossings);
     enum ceduo_status status = ceduo_walk_release(&w, &f->prepared, rock);

@@ -9,7 +9,7 @@
 #include "base/elementary.h"
 #include "base/random.h"
 #include "ceduo/trajectory.h"
-#include "core/wood/stems.h"
+#include "core/forest/stems.h"
 #include "flight.h"
 #include "prepared.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_TYPED_H
-#define CEDUO_TYPED_H
+#ifndef CEDUO_VALUE_TEXT_H
+#define CEDUO_VALUE_TEXT_H
 
 #include "scene/schema.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "typed.h"
+#include "value_text.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -204,7 +204,7 @@ bool ceduo_input_is_unusual(const struct field *f, const char *typed, struct tex
         return false;
     const char *unit = ceduo_format_unit(f);
     ceduo_text_format(question, _("%s: %g%s%s? Usual is %g to %g. Enter once more takes it."), _(f->shown.label), shown,
-                      unit[0] ? " " : "", unit, f->shown.least * f->shown.per, f->shown.most * f->shown.per);
+                      unit[0] ? " " : "", unit, f->shown.usual_min * f->shown.per, f->shown.usual_max * f->shown.per);
     return true;
 }
 

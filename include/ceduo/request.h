@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_QUESTION_H
-#define CEDUO_QUESTION_H
+#ifndef CEDUO_REQUEST_H
+#define CEDUO_REQUEST_H
 
 #include "blocks.h"
 #include "years.h"
@@ -9,7 +9,7 @@
  *
  *     struct ceduo_request question = ceduo_request_default(&scene);
  *     struct ceduo_results answer;
- *     question.rocks = question.run.rocks_most = 10000;
+ *     question.rocks = question.run.rocks_max = 10000;
  *     if (ceduo_simulate_request(&question, NULL, &answer) == CEDUO_OK)
  *         printf("%g\n", answer.result->options[0].wooded.arrivals[0].reach.mean);
  *     ceduo_results_release(&answer); */
@@ -25,7 +25,7 @@ struct ceduo_request {
     bool rotations;             /* also the whole rotation of each option: ceduo_window_compute() */
     uint64_t year_rocks;        /* rocks per year, at most `rocks`; 0: `rocks` */
     bool years_independent;     /* each year has independent rocks, see ceduo_years_simulate_independent(); not with blocks */
-    unsigned years_most;        /* > 0: at most this many years, evenly spread */
+    unsigned years_max;         /* > 0: at most this many years, evenly spread */
     uint64_t block_rocks; /* > 0: at most n blocks of each other size, to the last control, for at most the work of the runs */
 };
 #define CEDUO_ALL_OPTIONS SIZE_MAX

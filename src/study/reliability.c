@@ -2,7 +2,7 @@
 /* Computes the probability of reaching a goal under uncertain inputs, from plausible scenes (points.c). The goal of a scene
  * is that of its worst control. Over a rotation shares of rocks are means over the years; other goals are those of the worst
  * year. */
-#include "sure.h"
+#include "reliability.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
