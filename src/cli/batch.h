@@ -53,11 +53,11 @@ void ceduo_progress_scenes(struct progress *progress, size_t computed, size_t do
 
 /* A request to simulate one scene, and its results. */
 struct query {
-    struct ceduo_request question;
+    struct ceduo_request request;
     bool pictures, envelopes; /* keep the data of pictures; of envelopes along the slope */
     size_t trajectories;      /* number of trajectories to keep */
     struct progress progress;
-    struct ceduo_results answer;
+    struct ceduo_results results;
     double seconds; /* of the runs */
     struct ceduo_snapshot *snapshot;
     struct ceduo_verdict verdict;

@@ -146,7 +146,7 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
     const struct source *source = place.source;
     struct problem_list *list = place.unusual ? &problems->unusual : &problems->wrong;
     LOCAL_TEXT(words);
-    LOCAL_TEXT(where);
+    LOCAL_TEXT(location);
     LOCAL_TEXT(path);
     LOCAL_TEXT(message);
     LOCAL_TEXT(hint);
@@ -165,10 +165,10 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
     print_cut(&message, ceduo_text_string(&words));
     print_cut(&path, place.path ? place.path : "");
     if (source)
-        ceduo_text_append_escaped(&where, source->name);
+        ceduo_text_append_escaped(&location, source->name);
     if (source && place.line > 0 && !source->is_cell)
-        ceduo_text_format(&where, ":%zu:%zu", place.line, place.column);
-    struct problem p = {.place = ceduo_text_string(&where),
+        ceduo_text_format(&location, ":%zu:%zu", place.line, place.column);
+    struct problem p = {.place = ceduo_text_string(&location),
                         .path = ceduo_text_string(&path),
                         .message = ceduo_text_string(&message),
                         .kind = hash_kind(source, place.path ? place.path : "", ceduo_text_string(&words))};

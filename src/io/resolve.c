@@ -301,11 +301,11 @@ const struct node *ceduo_resolve_at(const struct node *root, const char *path)
 static const struct node *set_in(struct resolver *s, const struct field *f, const struct object *object,
                                  const struct node *node, size_t offset);
 
-static const struct node *fail_at(struct resolver *s, const struct path_step *step, const char *what)
+static const struct node *fail_at(struct resolver *s, const struct path_step *step, const char *problem)
 {
     LOCAL_TEXT(word);
     ceduo_text_append_n(&word, step->p, step->n);
-    ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", ceduo_text_string(&word), what);
+    ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", ceduo_text_string(&word), problem);
     return NULL;
 }
 

@@ -11,14 +11,14 @@
 
 /* ---- states ---- */
 
-static void push_state(struct document *d, const struct node *root, const char *what)
+static void push_state(struct document *d, const struct node *root, const char *edit_name)
 {
     if (d->current + 1 < d->count && d->saved > d->current && d->saved < d->count)
         d->saved = SIZE_MAX; /* redo can no longer reach the state on disk */
     if (d->count > 0)
         d->count = d->current + 1;
     d->states = ceduo_grow(d->states, d->count, &d->capacity, sizeof *d->states);
-    d->states[d->count] = (struct document_state){root, what};
+    d->states[d->count] = (struct document_state){root, edit_name};
     d->current = d->count++;
 }
 
@@ -53,7 +53,7 @@ static bool adopt(struct document *d, const struct node *root)
     return good;
 }
 
-bool ceduo_document_commit(struct document *d, const struct node *root, const char *what)
+bool ceduo_document_commit(struct document *d, const struct node *root, const char *edit_name)
 {
     const struct node *before = d->file.root;
     if (!adopt(d, root))
@@ -62,7 +62,7 @@ bool ceduo_document_commit(struct document *d, const struct node *root, const ch
         d->file.root = before;
         return true;
     }
-    push_state(d, d->file.root, ceduo_arena_string(&d->file.arena, what));
+    push_state(d, d->file.root, ceduo_arena_string(&d->file.arena, edit_name));
     trim_history(d);
     ceduo_document_write_recovery(d);
     return true;

@@ -302,10 +302,10 @@ const char *ceduo_schema_alternative(const struct object *object, const char *ke
 
 bool ceduo_schema_same(const char *a, const char *b)
 {
-    const char *key = strrchr(a, '.'), *with = strrchr(b, '.');
-    bool siblings = key && with && key - a == with - b && strncmp(a, b, (size_t)(key - a)) == 0;
+    const char *key = strrchr(a, '.'), *other_key = strrchr(b, '.');
+    bool siblings = key && other_key && key - a == other_key - b && strncmp(a, b, (size_t)(key - a)) == 0;
     const char *alternative = siblings ? ceduo_schema_alternative(&stems_object, key + 1) : NULL;
-    return strcmp(a, b) == 0 || (alternative && strcmp(alternative, with + 1) == 0);
+    return strcmp(a, b) == 0 || (alternative && strcmp(alternative, other_key + 1) == 0);
 }
 
 static const struct field curve_fields[] = {

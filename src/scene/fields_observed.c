@@ -69,16 +69,16 @@ static const struct field largest_fields[] = {
 };
 static const struct object largest_object = OBJECT(observed, largest_fields, NULL);
 
-static const struct field way_fields[] = {
-    NUMBER("from_m", .shown = BRIEF(N_("from, m"), N_("from m")), MEMBER(observed, way_from),
+static const struct field stretch_fields[] = {
+    NUMBER("from_m", .shown = BRIEF(N_("from, m"), N_("from m")), MEMBER(observed, stretch_from),
            RANGE("m", -COORDINATE_MAX, COORDINATE_MAX), .flags = REQUIRED | NO_RUN, .meaning = N_("where it begins")),
-    NUMBER("to_m", .shown = BRIEF(N_("to, m"), N_("to m")), MEMBER(observed, way_to),
+    NUMBER("to_m", .shown = BRIEF(N_("to, m"), N_("to m")), MEMBER(observed, stretch_to),
            RANGE("m", -COORDINATE_MAX, COORDINATE_MAX), .flags = REQUIRED | NO_RUN, .meaning = N_("where it ends")),
     GROUP("speed_m_s", N_("mean speed"), KIND_VALUES(WAY_SPEED), 0, &sample_object),
     GROUP("height_m", N_("mean height"), KIND_VALUES(WAY_HEIGHT), 0, &sample_object),
     GROUP("energy_kJ", N_("mean energy"), KIND_VALUES(WAY_ENERGY), 0, &sample_object),
 };
-static const struct object way_object = OBJECT(observed, way_fields, NULL);
+static const struct object stretch_object = OBJECT(observed, stretch_fields, NULL);
 
 static const struct field scars_fields[] = {
     POSITION("from_m", N_("from, m"), from, REQUIRED, N_("where it begins")),
@@ -111,7 +111,7 @@ static const struct field observed_fields[] = {
                    N_("height of their underside above the ground there, m"), &crossing_object),
     GROUP_LABELLED("energy", NAMED(N_("energy")), KIND_VALUES(ENERGY), 0, N_("their energy there, kJ"), &crossing_object),
     GROUP("largest", N_("largest"), EMBEDDED, 0, &largest_object),
-    GROUP("on_the_way", N_("on the way"), EMBEDDED, 0, &way_object),
+    GROUP("on_the_way", N_("on the way"), EMBEDDED, 0, &stretch_object),
     GROUP_LABELLED("scars", NAMED(N_("scars")), KIND_VALUES(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
 };
 const struct object ceduo_observed_object = OBJECT(observed, observed_fields, NULL);

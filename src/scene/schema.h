@@ -134,7 +134,7 @@ struct observed {
     int use;
     struct ceduo_rock_def rock;
     struct ceduo_release release;
-    double way_from, way_to;
+    double stretch_from, stretch_to;
     struct observed_values values[CEDUO_OBSERVED_KINDS];
 };
 

@@ -42,7 +42,7 @@ struct rows {
 
 static bool is_asked(const struct rows *r, size_t option)
 {
-    return !r->def->alone || option == r->def->option;
+    return !r->def->one_option || option == r->def->option;
 }
 
 static struct ceduo_replicates *find_values(const struct rows *r, size_t row, size_t option)
@@ -272,7 +272,7 @@ static int read_item(void *context, size_t item, size_t worker)
     bool difference = item >= r->options;
     size_t option = difference ? item - r->options + 1 : item;
     struct subject s;
-    if (!is_asked(r, option) || (difference && (r->def->alone || r->def->brief)))
+    if (!is_asked(r, option) || (difference && (r->def->one_option || r->def->brief)))
         return CEDUO_OK;
     enum ceduo_status status = open_subject(r, option, difference ? 0 : option, &s);
     for (size_t kind = 0; kind < CEDUO_UNCERTAINTY_KINDS && status == CEDUO_OK; kind++) {
@@ -555,7 +555,7 @@ enum ceduo_status ceduo_uncertainty_compute(const struct ceduo_uncertainty_def *
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){rows.options, def->threads, count_years, &rows});
     if (status == CEDUO_OK)
         status = read_figures(&rows, false);
-    if (status == CEDUO_OK && !def->alone)
+    if (status == CEDUO_OK && !def->one_option)
         status = rank_options(&rows);
     answer->points = rows.points;
     answer->rocks = checked.rocks;

@@ -108,12 +108,12 @@ struct field *ceduo_popup_add_value(struct popup *p, const char *label, const ch
 
 bool ceduo_popup_confirm_unusual(struct app *app, const struct field *field, struct line *line)
 {
-    LOCAL_TEXT(why);
-    bool good = ceduo_input_is_in_range(field, line->text, &why);
-    bool must_confirm = good && !line->confirmed && ceduo_input_is_unusual(field, line->text, &why);
+    LOCAL_TEXT(reason);
+    bool good = ceduo_input_is_in_range(field, line->text, &reason);
+    bool must_confirm = good && !line->confirmed && ceduo_input_is_unusual(field, line->text, &reason);
     line->confirmed |= must_confirm;
-    if (why.bytes)
-        ceduo_app_warn(app, "%s", why.bytes);
+    if (reason.bytes)
+        ceduo_app_warn(app, "%s", reason.bytes);
     return good && !must_confirm;
 }
 

@@ -171,12 +171,12 @@ static void report_reason(const struct ceduo_place *p, ceduo_sentence_sink *sink
 {
     const struct ceduo_outcome o = judge(p);
     const struct ceduo_subject subject = ceduo_subject_find(p->report, p->option, p->control);
-    LOCAL_TEXT(why);
+    LOCAL_TEXT(reason);
     if ((o.over_years && o.answer != CEDUO_CANNOT_JUDGE) || o.impossible)
-        ceduo_words_reason(&why, &subject);
+        ceduo_words_reason(&reason, &subject);
     else
-        ceduo_words_judgement_reason(&why, p->report->result, p->control, get_wooded_arrivals(p));
-    sink(context, ceduo_text_string(&why));
+        ceduo_words_judgement_reason(&reason, p->report->result, p->control, get_wooded_arrivals(p));
+    sink(context, ceduo_text_string(&reason));
 }
 
 static void report_all_warnings(const struct ceduo_place *place, ceduo_sentence_sink *sink, void *context)

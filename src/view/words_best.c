@@ -114,14 +114,14 @@ static void append_leaders(struct text *text, const struct ceduo_scene *scene, c
 
 /* Append "In years 1 to 25 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
 static void append_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, bool rotation,
-                        const char *when)
+                        const char *period_name)
 {
     const struct ceduo_leader *leader = rotation ? &v->rotation : &v->today;
     const char *rocks = v->accepted ? _("dangerous rocks") : _("rocks");
     double mean = get_mean(v, rotation, leader->best);
     LOCAL_TEXT(names);
     LOCAL_TEXT(numbers);
-    ceduo_text_format(text, "%s ", when);
+    ceduo_text_format(text, "%s ", period_name);
     append_leaders(&names, scene, v, leader, rotation, true);
     append_leaders(&numbers, scene, v, leader, rotation, false);
     if (leader->rivals + 1 == v->n && leader->equal)
@@ -143,19 +143,19 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
         ceduo_text_append(text, _("The forest cannot be assessed: no rock arrives, even without it."));
     LOCAL_TEXT(period);
     ceduo_text_format(&period, _("In years %u to %u"), get_window(v)->first, get_window(v)->last);
-    const char *when = period.bytes;
+    const char *period_name = period.bytes;
     bool years = v->rotation.known && !v->rotation.uneven && get_window(v)->kind != CEDUO_WINDOW_CONSTANT;
     bool today = v->today.known && !v->today.uneven;
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
     if (years && today && a->best == b->best && a->rivals == 0 && b->rivals == 0) {
         /* one option is clearly best over the years and today */
-        ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), when,
+        ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), period_name,
                           NAME_OF(&scene->options[a->best]), v->accepted ? _("dangerous rocks") : _("rocks"),
                           get_mean(v, true, a->best), get_mean(v, false, a->best));
         return;
     }
     if (years)
-        append_best(text, scene, v, true, when);
+        append_best(text, scene, v, true, period_name);
     if (years && today)
         ceduo_text_append_char(text, '\n');
     if (today)

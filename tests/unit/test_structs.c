@@ -240,7 +240,7 @@ static enum ceduo_status ask_any_uncertainty(void)
     def.years_max = draw(4) ? 2 : any_count(3);
     def.window = any_window();
     def.brief = draw(2);
-    def.alone = draw(3) == 0;
+    def.one_option = draw(3) == 0;
     def.option = any_count(1);
     enum ceduo_status status = ceduo_uncertainty_compute(&def, &a);
     if (status == CEDUO_OK)
@@ -370,7 +370,7 @@ TEST(each_bad_argument_is_refused)
     EXPECT(ceduo_uncertainty_compute(&def, &uncertainty), ==, CEDUO_OK);
     EXPECT(uncertainty.points, ==, 4);
     ceduo_uncertainty_free(&uncertainty);
-    bad = def, bad.alone = true, bad.option = 9;
+    bad = def, bad.one_option = true, bad.option = 9;
     EXPECT(ceduo_uncertainty_compute(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     bad = def, bad.years_max = 1000;
     EXPECT(ceduo_uncertainty_compute(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);

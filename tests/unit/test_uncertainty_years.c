@@ -234,7 +234,7 @@ TEST(one_option_alone_over_a_rotation)
     open_scene();
     struct ceduo_uncertainty_def def = make_def(2, 16);
     ask(2, 16, &answer);
-    def.alone = true;
+    def.one_option = true;
     def.option = 1;
     def.points_max = 8;
     EXPECT(ceduo_uncertainty_compute(&def, &alone), ==, CEDUO_OK);

@@ -10,7 +10,7 @@
 
 enum ceduo_status ceduo_check_window(struct ceduo_window window);
 enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def);
-enum ceduo_status ceduo_check_request(const struct ceduo_request *question);
+enum ceduo_status ceduo_check_request(const struct ceduo_request *request);
 enum ceduo_status ceduo_check_sizes_def(const struct ceduo_sizes_def *def);
 
 #endif

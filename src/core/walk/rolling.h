@@ -85,7 +85,7 @@ NOINLINE void report_roll(struct walker *w, const struct roll *r, double u2_end,
     const struct ceduo_trajectory_segment p = {true, w->flight.x, w->flight.z, u * s->c,  u * s->s,
                                                x1,   z1,          u1 * s->c,   u1 * s->s, w->k > 0 ? u / w->rock.radius : 0,
                                                0,    w->contacts};
-    w->watch->piece(w->watch->context, &p);
+    w->callbacks->segment(w->callbacks->context, &p);
 }
 
 /* Roll along the segment by ds to a point, and report passed marks. */
@@ -93,7 +93,7 @@ static void roll_to(struct walker *w, struct roll *r, double ds, double u2_end, 
 {
     if (r->dir > 0 && w->next_x <= x)
         pass_in_roll(w, r, ds, u2_end, x);
-    if (w->watch && w->watch->piece)
+    if (w->callbacks && w->callbacks->segment)
         report_roll(w, r, u2_end, x, z);
     r->u2 = u2_end;
     w->flight.x = x;
