@@ -3,8 +3,7 @@
 #define CEDUO_VERDICT_H
 
 #include "base/arena.h"
-#include "ceduo/result.h"
-#include "ceduo/years.h"
+#include "ceduo/request.h"
 #include "ceduo/yield.h"
 
 /* Comparison of the options at the last control: today, over the same future years, and their yield. The judged share is the
@@ -99,6 +98,8 @@ struct ceduo_uncertainty_result;
 struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *result, const struct ceduo_verdict *verdict,
                                            const struct ceduo_uncertainty_result *uncertainty, size_t option, size_t control);
 
+/* Add to a request the years of ceduo_scene_window(), by which options are judged, with few rocks each. */
+void ceduo_verdict_add_years(struct ceduo_request *request);
 /* Class of a judgement, for maps: the larger, the worse; the last one is not judged. */
 enum ceduo_class {
     CEDUO_CLASS_NOT_REACHED,    /* hardly a rock arrives even without forest */

@@ -853,18 +853,18 @@ static const struct ceduo_figure share_range[] = {
     {"p5", "", "lower end of the 90 % range of wooded.exceed_probability today over uncertain inputs", MEMBER(surface_fit, p5)},
     {"p95", "", "its upper end", MEMBER(surface_fit, p95)},
     END};
-static const struct ceduo_figure control_end[] = {
+static const struct ceduo_figure end_columns[] = {
     {"worst", "", "", .from = get_summary, .table = worst_year_columns,
-     .null = "no option grows or is cut, or contact_model is index"},
+     .null = "no option grows or is cut, contact_model is index, or of a year"},
     {"uncertainty", "", "", .from = get_share_range, .table = share_range,
-     .null = "--columns does not name it, nothing is uncertain, or the control is not the last"},
+     .null = "--columns does not name it, nothing is uncertain, the control is not the last, or of a year"},
     VERSION,
     END};
 
 static const struct ceduo_figure control_columns[] = {
-    {.table = scene}, {.table = option_row}, {.table = rest}, {.table = control_end}, END};
-static const struct ceduo_figure year_columns[] = {
-    {.table = scene}, {.table = option_row}, {.table = year_rows}, {.table = rest}, END};
+    {.table = scene}, {.table = option_row}, {.table = rest}, {.table = end_columns}, END};
+static const struct ceduo_figure year_columns[] = {{.table = scene}, {.table = option_row},  {.table = year_rows},
+                                                   {.table = rest},  {.table = end_columns}, END};
 static const struct ceduo_figure stand_csv_columns[] = {
     {.table = scene},          {.table = option_row},
     {.table = stand_columns},  {"rules", "", "", .from = get_rules, .table = rules},

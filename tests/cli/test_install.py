@@ -55,7 +55,7 @@ def test_install():
         shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").rglob("*.[1357]")]
         shipped += [*(ROOT / "profiles/jobs").iterdir(), *(ROOT / "profiles/surveys").iterdir(), *(ROOT / "profiles/observed").iterdir(),
                     *(p for p in (ROOT / "profiles/region").iterdir() if p.is_file() and p.suffix != ".yaml"),
-                    *(ROOT / "include/ceduo").glob("*.h"), *(ROOT / "src/po").glob("*.po")]
+                    *(ROOT / "include/ceduo").glob("*.h"), *(ROOT / "src/po").glob("*.po"), *(ROOT / "man/examples").iterdir()]
         expect_equal(len(names), len(shipped) + 12, "files installed")  # with libraries, Italian pages and completions
         for name in names:
             expect_equal(oct((place.prefix / name).stat().st_mode & 0o777), "0o755" if name == "bin/ceduo" else "0o644", name)
