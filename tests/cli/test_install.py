@@ -251,9 +251,9 @@ def test_bash():
         offered = {w.removeprefix("--") for w in completed(place, program, "--")}
         expect(offered >= {"batch", "years", "find", "plot", "version"} and offered <= options, offered ^ options)
         expect_equal(completed(place, program, "--to"), ["--tolerance"])
-        expect_equal(completed(place, program, "-f", ""), ["table", "csv", "json"])
+        expect_equal(completed(place, program, "-f", ""), ["table", "csv", "json", "geojson"])
         expect_equal(completed(place, program, "--format", "=", "j"), ["json"])
-        expect_equal(completed(place, program, "--format", "="), ["table", "csv", "json"])
+        expect_equal(completed(place, program, "--format", "="), ["table", "csv", "json", "geojson"])
         expect_equal(completed(place, program, "--plot", "h"), ["height", "histogram", "hazard"])
         expect_equal(completed(place, program, "--goal", "e"), ["energy", "exceed"])
         expect_equal(completed(place, program, "-s", "simulation.scale"), ["simulation.scale_rn="])
