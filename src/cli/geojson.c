@@ -40,9 +40,12 @@ static bool append_point(const char **p, bool measured, struct text *out)
     ceduo_text_append_char(out, '[');
     for (skip_blanks(p); n < 4 && strchr("+-.0123456789", **p) && **p; skip_blanks(p), n++) {
         LOCAL_TEXT(number);
-        size_t length = strspn(*p, "+-.0123456789eE");
-        ceduo_text_append_n(&number, *p + (**p == '+'), length - (**p == '+'));
-        *p += length;
+        const char *end = *p + strspn(*p, "+-.0123456789eE"), *digits = *p + (**p == '-' || **p == '+');
+        while (digits[0] == '0' && isdigit((unsigned char)digits[1])) /* 007 */
+            digits++;
+        ceduo_text_append(&number, **p == '-' ? "-" : "");
+        ceduo_text_append_n(&number, digits, (size_t)(end - digits));
+        *p = end;
         if (ceduo_number_read(ceduo_text_string(&number), &value) != CEDUO_NUMBER_GOOD)
             return false;
         if (n < (measured ? 2 : 3))

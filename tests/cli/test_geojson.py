@@ -13,7 +13,7 @@ from harness import DONE, INPUT, USAGE, Folder, Skip, ceduo, expect, expect_equa
 # WKT and its geometry by RFC 7946, written by hand; None: refused
 GEOMETRIES = {
     "POINT (1 2)": ("Point", [1, 2]), "point(1 2)": ("Point", [1, 2]), "POINT Z (1 2 3.50)": ("Point", [1, 2, 3.5]),
-    "POINTZ(-1 +2 3e2)": ("Point", [-1, 2, 300]), "Point M (1 2 9)": ("Point", [1, 2]), "POINT ZM (1 2 3 9)": ("Point", [1, 2, 3]),
+    "POINTZ(-1 +2 3e2)": ("Point", [-1, 2, 300]), "POINT (007 -00.5)": ("Point", [7, -0.5]), "Point M (1 2 9)": ("Point", [1, 2]), "POINT ZM (1 2 3 9)": ("Point", [1, 2, 3]),
     "LINESTRING (0 0, 3 4)": ("LineString", [[0, 0], [3, 4]]), "LineString(0 0,3 4 , 5 6)": ("LineString", [[0, 0], [3, 4], [5, 6]]),
     "LINESTRING Z (0 0 1, 3 4 2)": ("LineString", [[0, 0, 1], [3, 4, 2]]),
     "MULTILINESTRING ((0 0, 3 4), (5 6, 7 8))": ("MultiLineString", [[[0, 0], [3, 4]], [[5, 6], [7, 8]]]),
