@@ -50,7 +50,7 @@ def test_geometries():
             wanted = geometry and {"type": geometry[0], "coordinates": geometry[1]}
             expect_equal([feature["geometry"] for feature in found[i]], [wanted] * (2 if wanted else 1), wkt)
             expect_equal([feature["properties"]["status"] for feature in found[i]], ["ok", "ok"] if wanted else ["failed"], wkt)
-        expect_in("rows.csv:13:4: no geometry: write POINT (x y) or LINESTRING (x y, x y)", r.err)
+        expect_in("rows.csv:14:4: no geometry: write POINT (x y) or LINESTRING (x y, x y)", r.err)
 
 
 def test_coordinates():
