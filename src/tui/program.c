@@ -206,6 +206,7 @@ static void run_action(struct app *app, enum action action)
 static void begin_input(struct app *app)
 {
     ceduo_arena_free(app->scratch);
+    app->drawn = false;
     if (!app->popup) {
         app->message[0] = '\0';
         app->after_save = NULL;
@@ -244,35 +245,39 @@ void ceduo_program_paste(struct app *app, const char *text)
     end_input(app);
 }
 
-/* Open the view of the clicked title, or move the cursor to a field. A second click edits the field. */
+/* Find the area under the pointer. After another input, what is there now counts. */
+static struct hit find_hit(struct app *app, int x, int y)
+{
+    if (!app->drawn)
+        ceduo_screen_draw(app);
+    for (size_t i = app->hits_count; i-- > 0;) {
+        const struct hit *hit = &app->hits[i];
+        int column = x - hit->area.left, line = y - hit->area.top;
+        if (column >= 0 && column < hit->area.width && line >= 0 && line < hit->area.height)
+            return *hit;
+    }
+    return (struct hit){0};
+}
+
 void ceduo_program_click(struct app *app, int x, int y)
 {
-    struct view_state *state = ceduo_app_state(app);
-    size_t row = state->form.row, column = state->form.column;
-    if (app->popup) /* a popup stays */
+    struct hit hit = find_hit(app, x, y);
+    if (hit.key != K_NONE) {
+        ceduo_program_key(app, hit.key);
         return;
-    begin_input(app);
-    if (y == 0) {
-        enum view_number view = ceduo_screen_find_view(app, x);
-        if (view < VIEW_COUNT)
-            ceduo_app_show(app, view);
-    } else if (ceduo_form_click(&state->form, x, y)) {
-        if (state->form.row == row && state->form.column == column && state->pane == 0)
-            ceduo_edit_start(app);
-        state->pane = 0;
     }
+    begin_input(app);
+    if (hit.click)
+        hit.click(app, x - hit.area.left, y - hit.area.top + hit.first);
     end_input(app);
 }
 
-void ceduo_program_wheel(struct app *app, int lines)
+void ceduo_program_wheel(struct app *app, int x, int y, int lines)
 {
-    if (app->popup && app->popup->kind == POPUP_FIELD)
-        return;
+    struct hit hit = find_hit(app, x, y);
     begin_input(app);
-    if (app->popup)
-        ceduo_popup_key(app, lines < 0 ? K_UP : K_DOWN);
-    else
-        move_lines(app, lines);
+    if (hit.wheel)
+        hit.wheel(app, lines);
     end_input(app);
 }
 

@@ -190,10 +190,15 @@ static void set_handlers(void)
 
 /* ---- drawing ---- */
 
-static void show_screen(struct app *app, bool colours)
+static void fit_screen(struct app *app)
 {
     if (app->width != COLS || app->height != LINES || !app->cells)
         ceduo_app_resize(app, COLS, LINES);
+}
+
+static void show_screen(struct app *app, bool colours)
+{
+    fit_screen(app);
     ceduo_screen_draw(app);
     if (app->redraw)
         clearok(curscr, TRUE);
@@ -328,10 +333,11 @@ static void handle_mouse(struct app *app)
     MEVENT event;
     if (getmouse(&event) != OK || input.pasting)
         return;
+    fit_screen(app);
     if (event.bstate & BUTTON4_PRESSED)
-        ceduo_program_wheel(app, -3);
+        ceduo_program_wheel(app, event.x, event.y, -3);
     else if (event.bstate & BUTTON5_PRESSED)
-        ceduo_program_wheel(app, 3);
+        ceduo_program_wheel(app, event.x, event.y, 3);
     else if (event.bstate & (BUTTON1_PRESSED | BUTTON1_CLICKED))
         ceduo_program_click(app, event.x, event.y);
 }

@@ -71,8 +71,8 @@ static void append_summary(struct app *app, const struct ceduo_years *years, str
 
 #define PICTURE_MIN     7 /* min. lines of the picture with the form: only the curve */
 #define PICTURE_ALONE   9 /* min. lines with the lights */
-#define FORM_MIN        3 /* min. lines of the form; wanted lines: */
-#define FORM_WANTED     8
+#define FORM_MIN        4 /* min. lines of the form; wanted lines: */
+#define FORM_WANTED     9
 #define HEIGHT_FOR_FORM 18
 
 static void draw_rotation(struct app *app, struct ceduo_area area)

@@ -24,6 +24,7 @@ struct ceduo_picture {
     const struct ceduo_snapshot *snapshot;    /* NULL: not computed yet */
     size_t option, belt, control;             /* indices; out of range: the picture reports it */
     const struct ceduo_polyline *selected;    /* trajectory of the selected rock, drawn on top; may be NULL */
+    bool mark_belt;                           /* mark the belt in the profile */
     const double *mark;                       /* position to mark in the profile, m, relative; may be NULL */
     double from, to;                          /* part of the slope to show, m, relative; from == to: all */
     const struct ceduo_stem_encounter *stems; /* encountered by the selected rock, in its order; NULL: unknown */
