@@ -143,7 +143,8 @@ static void show_help(struct app *app)
                     "match is first. a and y split a ground, a belt or a segment of the profile. Neighbours follow a moved "
                     "border.\nThe right column: arrivals per 1000 rocks released, without and with forest; the three lights; "
                     "energy absorbed and remaining by the index (Eq. 4 and 5 of Ciabocco et al. 2009); uncertainty.\nMouse: "
-                    "click a field or the name of a view; the wheel scrolls; hold Shift to select text in the terminal.\n"));
+                    "click a view, a key, a field, an item, an option, a year or the slope; click again for Enter; the wheel "
+                    "scrolls what is under it; hold Shift to select text in the terminal.\n"));
     ceduo_text_format(&p->text, " \n%s\n", _("Words"));
     for (size_t i = 0; i < sizeof glossary / sizeof glossary[0]; i++)
         ceduo_text_format(&p->text, "  %s: %s\n", _(glossary[i].word), _(glossary[i].meaning));

@@ -89,8 +89,7 @@ static bool draw_title(struct app *app)
     int x = 0;
     for (int v = 0; v < VIEW_COUNT; v++) {
         int columns = title_columns(app, v);
-        ceduo_canvas_draw_text(&app->cells->canvas, x, 0, columns,
-                               v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
+        ceduo_canvas_draw_text(&app->cells->canvas, x, 0, columns, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
                                ceduo_app_format(app, app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
                                                 ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help)));
         ceduo_app_add_hit(app, (struct hit){.area = {x, 0, columns, 1}, .key = ceduo_actions[ACTION_VIEW_SLOPE + v].key});
@@ -224,7 +223,8 @@ static void draw_popup_bar(struct app *app)
         size_t word = strcspn(part, " ");
         end = strstr(part, "  ");
         end = end ? end : part + strlen(part);
-        while (action < ACTION_COUNT && (strncmp(ceduo_actions[action].word, part, word) != 0 || ceduo_actions[action].word[word]))
+        while (action < ACTION_COUNT &&
+               (strncmp(ceduo_actions[action].word, part, word) != 0 || ceduo_actions[action].word[word]))
             action++;
         int key = action < ACTION_COUNT ? ceduo_actions[action].key : app->popup->kind == POPUP_TEXT ? K_ESCAPE : K_NONE;
         int width = (int)ceduo_utf8_width(ceduo_app_format(app, "%.*s", (int)(end - part), part));

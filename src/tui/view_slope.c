@@ -63,9 +63,9 @@ static void build_slope(struct app *app, struct form *form)
 /* ---- the cursor along the slope ---- */
 
 struct slope_cursor {
-    double x;    /* m, relative */
-    int zoom;    /* magnification 2^zoom */
-    bool is_set; /* x was set by a move */
+    double x;               /* m, relative */
+    int zoom;               /* magnification 2^zoom */
+    bool is_set;            /* x was set by a move */
     struct ceduo_span span; /* of the last picture */
 };
 
@@ -310,7 +310,12 @@ static void draw_slope(struct app *app, struct ceduo_area area)
     ceduo_app_draw_form(app, cut_bottom(&area, picture_only ? 0 : area.height / 3 + 1));
     struct ceduo_area whole = area;
     bool has_cursor = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: use all rows for the slope at true scale */
-    int rows = area.height + !picture_only, strips = has_cursor ? 0 : rows >= 24 ? 2 : rows >= 13 ? 1 : 0, strip = rows >= 24 ? rows / 4 : 5;
+    int rows = area.height + !picture_only,
+        strips = has_cursor   ? 0
+                 : rows >= 24 ? 2
+                 : rows >= 13 ? 1
+                              : 0,
+        strip = rows >= 24 ? rows / 4 : 5;
     bool on_control = !picture_only && form_row && form_row->n > 0 && strcmp(form_row->list, "controls") == 0;
     if (on_control)
         mark = scene->controls[form_row->index < scene->controls_count ? form_row->index : 0].x;

@@ -32,7 +32,7 @@ struct ceduo_picture {
     const struct ceduo_years *years;     /* years of the option; NULL: not computed */
     size_t year;                         /* index of the year under the cursor; out of range: none */
     const struct ceduo_verdict *verdict; /* verdict on all options; NULL: not computed */
-    struct ceduo_span *span;             /* columns of the slope: set by profile and rotation, used by strips; NULL: from the area */
+    struct ceduo_span *span; /* columns of the slope: set by profile and rotation, used by strips; NULL: from the area */
     const struct ceduo_uncertainty_report *uncertainty; /* NULL: not computed */
     bool no_x_axis;                                     /* strip with another strip below it */
     bool trajectories;                                  /* the strip of heights shows each trajectory, too */
