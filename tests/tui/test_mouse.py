@@ -9,7 +9,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import Place  # noqa: E402
 from test_terminal import Tmux, until  # noqa: E402
-from harness import Suite, expect, expect_equal, tests_of  # noqa: E402
+from harness import expect, expect_equal, run_all  # noqa: E402
 
 WHEEL_UP, WHEEL_DOWN = 64, 65
 
@@ -244,11 +244,5 @@ def test_suspend():
         t.sees("Stand of belt 1")
 
 
-def main():
-    suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
-    suite.end()
-
-
 if __name__ == "__main__":
-    main()
+    run_all(__name__)

@@ -251,6 +251,7 @@ def check_screen(size, view, scene, charset):
         expect(not set(other) & set(screen.body), f"dots of another kind than {charset} in the", screen)
 
 GOLDEN_STAND = """\
+belt 1 of 2 · 2/34 ▼
     from, m        to, m          stand
 1   0              67.5           ADS 1
 2   67.5           135            ADS 2
@@ -265,6 +266,7 @@ Shoots on the stools
 Single trees: standards, reserves
 1   750      6.1      6        0.0107   0"""
 GOLDEN_ROCK = """\
+2/36 ▼
 Rock
 shape                cylinder
 diameter, m          0.56
