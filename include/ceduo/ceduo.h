@@ -26,6 +26,7 @@ extern "C" {
 #include "blocks.h"
 #include "calibrate.h"
 #include "find.h"
+#include "handle.h"
 #include "hazard.h"
 #include "key.h"
 #include "naslund.h"

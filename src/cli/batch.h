@@ -69,9 +69,6 @@ struct query {
 /* Set the question from the command line: rocks by -n, -e or the scene; threads, years. */
 void ceduo_query_begin(struct query *query, const struct arguments *arguments, const struct scene_file *file);
 
-/* Add one rotation of each option, with few rocks, if --years is not given. */
-void ceduo_query_add_years(struct ceduo_request *request);
-
 /* Simulate the runs of the question. */
 enum ceduo_status ceduo_query_run(struct query *query);
 

@@ -7,6 +7,7 @@
 #include "batch.h"
 #include "messages.h"
 #include "model/search.h"
+#include "study/verdict.h"
 #include "view/figures.h"
 #include "view/page.h"
 #include "view/svg.h"
@@ -43,7 +44,7 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
     if (stands) /* --rows stands needs no simulation */
         q.request.rocks = 0;
     if (!a->years && !stands && judges_years(a))
-        ceduo_query_add_years(&q.request);
+        ceduo_verdict_add_years(&q.request);
     if (page && !a->years) { /* simulate only what the page prints */
         q.request.rotations = a->details;
         q.request.block_rocks = a->details ? BLOCK_ROCKS : 0;
@@ -249,7 +250,7 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
     if (a->window.step > 0)
         q.request.year_rocks = YEAR_ROCKS;
     else
-        ceduo_query_add_years(&q.request);
+        ceduo_verdict_add_years(&q.request);
     q.request.block_rocks = file->scene.options_count == 1 ? BLOCK_ROCKS : 0;
     enum ceduo_status status = ceduo_query_run(&q);
     if (status == CEDUO_OK)

@@ -321,6 +321,16 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
 
 /* ---- comparison ---- */
 
+#define YEAR_ROCKS 1000 /* of each year: the error of a share near the limit is 14 of 1000 */
+#define YEARS_MAX  60   /* of a longer window, only some years are simulated */
+
+void ceduo_verdict_add_years(struct ceduo_request *request)
+{
+    request->years = request->years_independent = true;
+    request->year_rocks = YEAR_ROCKS;
+    request->years_max = YEARS_MAX;
+}
+
 enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ceduo_years *const *years,
                                         struct ceduo_years *const *rotations, struct ceduo_verdict *v)
 {

@@ -3,8 +3,7 @@
 #define CEDUO_VERDICT_H
 
 #include "base/arena.h"
-#include "ceduo/result.h"
-#include "ceduo/years.h"
+#include "ceduo/request.h"
 #include "ceduo/yield.h"
 
 /* Comparison of the options at the last control: today, over the same future years, and their yield. The judged share is the
@@ -98,6 +97,9 @@ struct ceduo_outcome {
 struct ceduo_uncertainty_result;
 struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *result, const struct ceduo_verdict *verdict,
                                            const struct ceduo_uncertainty_result *uncertainty, size_t option, size_t control);
+
+/* Add to a request the years of ceduo_scene_window(), by which options are judged, with few rocks each. */
+void ceduo_verdict_add_years(struct ceduo_request *request);
 
 /* Compare the options of a result, with their years and rotations. `years`, `rotations` and each item of them may be NULL.
  * Return CEDUO_OK, or CEDUO_NO_MEMORY, with nothing to free. */
