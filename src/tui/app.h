@@ -119,7 +119,7 @@ struct app {
     size_t pictures_count;
     struct hit hits[HITS_MAX];
     size_t hits_count;
-    bool drawn; /* no input since the screen was drawn, so the hits are on the screen */
+    bool drawn; /* neither input nor results since the screen was drawn: the hits are up to date */
     int width, height;
     enum ceduo_charset charset;
     int theme; /* 0 dark, 1 light, 2 none */

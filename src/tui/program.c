@@ -246,7 +246,7 @@ void ceduo_program_paste(struct app *app, const char *text)
     end_input(app);
 }
 
-/* Find the area under the pointer. After another input, what is there now counts. */
+/* Find the area under the pointer, on the screen after all inputs and results. */
 static struct hit find_hit(struct app *app, int x, int y)
 {
     if (!app->drawn)
@@ -295,6 +295,7 @@ bool ceduo_program_poll(struct app *app)
     ceduo_arena_free(app->scratch);
     const struct ceduo_scene *scene = &app->document.file.scene;
     bool changed = ceduo_live_poll(&app->live, scene);
+    app->drawn = false;
     const struct ceduo_years *years = ceduo_live_years(&app->live, scene, app->option);
     union results *results = &app->live.results;
     if (years && app->year >= years->count)

@@ -66,7 +66,7 @@ struct slope_cursor {
     double x;               /* m, relative */
     int zoom;               /* magnification 2^zoom */
     bool is_set;            /* x was set by a move */
-    struct ceduo_span span; /* of the last picture */
+    struct ceduo_span span; /* columns of the last picture */
 };
 
 static double slope_length(const struct app *app)
