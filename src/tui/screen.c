@@ -184,11 +184,10 @@ static void draw_explanation(struct app *app)
     ceduo_text_append_escaped(&safe, ceduo_text_string(&text));
     ceduo_app_shorten(app, &safe, lines.width, lines.height);
     const char *shown = ceduo_text_string(&safe);
-    if ((int)ceduo_utf8_width(shown) > app->width)
+    if ((int)ceduo_utf8_width(shown) > app->width) {
         ceduo_cells_clear_area(app->cells, lines); /* also the position of a text above */
-    if ((int)ceduo_utf8_width(shown) > app->width)
         ceduo_app_draw_wrapped(app, lines, role, shown, 0);
-    else
+    } else
         ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 2, app->width, role, shown);
 }
 

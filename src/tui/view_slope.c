@@ -278,14 +278,15 @@ static void click_slope(struct app *app, int column, int row)
 /* Let the mouse act on the columns of the slope. A click on the cursor opens its list. */
 static void add_slope_hits(struct app *app, struct ceduo_area area)
 {
-    struct slope_cursor *p = ceduo_app_private_state(app);
-    area.left = p->span.left;
-    area.width = p->span.width;
-    if (p->span.width > 1 && p->span.x1 > p->span.x0)
-        ceduo_app_add_hit(app, (struct hit){.area = area, .click = click_slope});
+    const struct ceduo_span *span = &((const struct slope_cursor *)ceduo_app_private_state(app))->span;
+    if (span->width < 2 || !(span->x1 > span->x0))
+        return;
+    area.left = span->left;
+    area.width = span->width;
+    ceduo_app_add_hit(app, (struct hit){.area = area, .click = click_slope});
     if (ceduo_app_state(app)->pane != PANE_PLACE)
         return;
-    area.left += (int)lround((cursor_x(app) - p->span.x0) / (p->span.x1 - p->span.x0) * (p->span.width - 1)) - 1;
+    area.left += (int)lround((cursor_x(app) - span->x0) / (span->x1 - span->x0) * (span->width - 1)) - 1;
     area.width = 3;
     ceduo_app_add_hit(app, (struct hit){.area = area, .key = K_ENTER});
 }
@@ -316,9 +317,10 @@ static void draw_slope(struct app *app, struct ceduo_area area)
                  : rows >= 13 ? 1
                               : 0,
         strip = rows >= 24 ? rows / 4 : 5;
-    bool on_control = !picture_only && form_row && form_row->n > 0 && strcmp(form_row->list, "controls") == 0;
+    bool on_control =
+        !picture_only && form_row && strcmp(form_row->list, "controls") == 0 && form_row->index < scene->controls_count;
     if (on_control)
-        mark = scene->controls[form_row->index < scene->controls_count ? form_row->index : 0].x;
+        mark = scene->controls[form_row->index].x;
     if (has_cursor || on_control)
         picture.mark = &mark;
     picture.mark_belt = ceduo_app_option(app)->belts_count > 1;
