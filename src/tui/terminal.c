@@ -328,18 +328,26 @@ static void flush_escape(struct app *app)
     }
 }
 
+#define EVENTS_MAX 8 /* as curses keeps */
+
+/* Handle all events that curses has read at once. It returns the newest first, and one that stays would come with a later
+ * click. */
 static void handle_mouse(struct app *app)
 {
-    MEVENT event;
-    if (getmouse(&event) != OK || input.pasting)
-        return;
-    fit_screen(app);
-    if (event.bstate & BUTTON4_PRESSED)
-        ceduo_program_wheel(app, event.x, event.y, -3);
-    else if (event.bstate & BUTTON5_PRESSED)
-        ceduo_program_wheel(app, event.x, event.y, 3);
-    else if (event.bstate & (BUTTON1_PRESSED | BUTTON1_CLICKED))
-        ceduo_program_click(app, event.x, event.y);
+    MEVENT events[EVENTS_MAX];
+    int n = 0;
+    while (n < EVENTS_MAX && getmouse(&events[n]) == OK)
+        n++;
+    while (n-- > 0 && !input.pasting && !app->quit) {
+        const MEVENT *event = &events[n];
+        fit_screen(app);
+        if (event->bstate & BUTTON4_PRESSED)
+            ceduo_program_wheel(app, event->x, event->y, -3);
+        else if (event->bstate & BUTTON5_PRESSED)
+            ceduo_program_wheel(app, event->x, event->y, 3);
+        else if (event->bstate & (BUTTON1_PRESSED | BUTTON1_CLICKED))
+            ceduo_program_click(app, event->x, event->y);
+    }
 }
 
 /* Handle all waiting keys. Return true if there was one. */

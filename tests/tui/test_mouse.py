@@ -97,7 +97,11 @@ def test_form():
 
 
 def test_at_once():
-    """A click that arrives with a key or a click before it acts on the screen after these"""
+    """Clicks and keys that arrive together act one after the other, each on the screen after the one before; none comes later"""
+
+    def clicks(*cells):
+        return "".join(f"\x1b[<0;{x};{y}M\x1b[<0;{x};{y}m" for x, y in cells)
+
     with Place() as place, Mouse(place) as t:
         t.start("fast.yaml")
         t.keys("2")
@@ -105,11 +109,14 @@ def test_at_once():
         x, y = t.find("50 ")
         t.keys("1")
         t.sees("Controls", lacks=("Stand of belt 1",))
-        click = f"\x1b[<0;{x};{y}M\x1b[<0;{x};{y}m"
-        t.text("2" + click)
+        t.text("2" + clicks((x, y)))
         t.sees("Stand of belt 2")
-        t.text("3" + "\x1b[<0;1;24M" * 2)  # Enter opens a list: the second click meets its bar
-        t.sees("sphere", "type to search")
+        t.keys("3")
+        for _ in range(3):
+            t.sees("shape of the rock", "? help", lacks=("type to search",))
+            t.text(clicks((1, 3), (1, 3), (1, 24)))  # no field; Enter
+            t.sees("type to search")
+            t.click("Esc cancel")
 
 
 def test_lists():
