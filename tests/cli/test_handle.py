@@ -193,9 +193,12 @@ def test_errors():
 def test_threads():
     """A second call for a handle in use is an error; two handles work at once, and give the same figures"""
     with scene("paper-site") as s, scene("paper-site") as other:
-        long = threading.Thread(target=s.simulate, args=(200000,))
+        def simulate():  # until the other thread does not hold the handle
+            while error_of(s.simulate, 200000):
+                pass
+
+        long, refused = threading.Thread(target=simulate), 0
         long.start()
-        refused = 0
         while long.is_alive():
             refused += "another thread" in error_of(s.get, SHARE)
         long.join()
