@@ -23,6 +23,14 @@ struct change {
     char text[];
 };
 
+/* Memory of an earlier scene, to which runs of the pool may refer. */
+struct old_scene {
+    struct old_scene *next;
+    struct arena arena;
+};
+
+#define OLD_SCENES_MAX ((size_t)16 << 20) /* bytes */
+
 struct open_scene {
     struct open_scene *next;
     ceduo_handle handle;
@@ -32,7 +40,9 @@ struct open_scene {
     struct scene_file changed; /* with the changes up to the last refresh(); shares the nodes of `given` */
     struct change *changes;    /* in the order of their application; one for each path */
     bool current;              /* `changed` has all changes */
-    struct ceduo_pool *pool;   /* keeps runs from one simulation to the next; refers to `changed` */
+    struct ceduo_pool *pool;   /* keeps runs from one simulation to the next */
+    struct old_scene *old;     /* freed with the pool */
+    size_t old_bytes;
     struct ceduo_results results;
     struct ceduo_verdict verdict;
     uint64_t rocks;       /* simulated last */
@@ -134,10 +144,23 @@ static void free_results(struct open_scene *scene)
     scene->simulated = scene->years_simulated = false;
 }
 
+static void free_pool(struct open_scene *scene)
+{
+    ceduo_pool_free(scene->pool);
+    scene->pool = NULL;
+    for (struct old_scene *old = scene->old, *next; old; old = next) {
+        next = old->next;
+        ceduo_arena_free(&old->arena);
+        free(old);
+    }
+    scene->old = NULL;
+    scene->old_bytes = 0;
+}
+
 static void free_scene(struct open_scene *scene)
 {
     free_results(scene);
-    ceduo_pool_free(scene->pool);
+    free_pool(scene);
     ceduo_arena_free(&scene->changed.arena);
     ceduo_scene_release(&scene->given);
     for (struct change *c = scene->changes, *next; c; c = next) {
@@ -205,7 +228,24 @@ static bool apply(struct scene_file *file, const struct change *change, struct p
     return ceduo_scene_set(file, "ceduo_set()", change->text, problems);
 }
 
-/* Make the scene with all changes, if it is not current, and give it to the pool. The old scene is kept on failure. */
+/* Replace the scene by a new one. The old one stays while runs may refer to it. */
+static enum ceduo_status replace_scene(struct open_scene *scene, const struct scene_file *fresh)
+{
+    struct old_scene *old = calloc(1, sizeof *old);
+    if (!old)
+        return fail_by_status(CEDUO_NO_MEMORY);
+    free_results(scene);
+    *old = (struct old_scene){scene->old, scene->changed.arena};
+    scene->old = old;
+    scene->old_bytes += old->arena.bytes;
+    scene->changed = *fresh;
+    scene->current = true;
+    if (!scene->pool || scene->old_bytes > OLD_SCENES_MAX)
+        free_pool(scene);
+    return CEDUO_OK;
+}
+
+/* Make the scene with all changes, if it is not current. It does not change on failure. */
 static enum ceduo_status refresh(struct open_scene *scene)
 {
     if (scene->current)
@@ -219,18 +259,9 @@ static enum ceduo_status refresh(struct open_scene *scene)
     const struct node *root = good ? ceduo_resolve_scene(&fresh.arena, fresh.root, &problems) : NULL;
     fresh.root = root;
     good = root && problems.met == 0 && ceduo_scene_bind(&fresh, &problems) && ceduo_problems_check_memory(&problems);
-    enum ceduo_status status = good ? CEDUO_OK : fail_by_problems(&problems);
-    if (good) {
-        free_results(scene);
-        struct ceduo_run_def def = ceduo_request_default(&fresh.scene).run;
-        if (scene->pool) /* before the old scene is freed */
-            status = fail_by_status(ceduo_pool_reuse_or_create(&def, &scene->pool));
-        ceduo_arena_free(&scene->changed.arena);
-        scene->changed = fresh;
-        scene->current = true;
-    } else {
+    enum ceduo_status status = good ? replace_scene(scene, &fresh) : fail_by_problems(&problems);
+    if (status != CEDUO_OK)
         ceduo_arena_free(&fresh.arena);
-    }
     return status;
 }
 
@@ -321,10 +352,8 @@ enum ceduo_status ceduo_simulate(ceduo_handle handle, uint64_t rocks, unsigned t
         return CEDUO_BAD_ARGUMENT;
     enum ceduo_status status = refresh(scene);
     rocks = rocks > 0 ? rocks : scene->changed.scene.simulation.rocks;
-    if (rocks < scene->rocks) { /* runs of the pool never get shorter */
-        ceduo_pool_free(scene->pool);
-        scene->pool = NULL;
-    }
+    if (rocks < scene->rocks) /* runs of the pool never get shorter */
+        free_pool(scene);
     scene->rocks = rocks;
     scene->threads = threads > 0 ? threads : 1;
     return end_call(scene, status == CEDUO_OK ? simulate(scene, false) : status);

@@ -19,7 +19,11 @@ enum exit_status ceduo_batch_survey(const struct arguments *arguments);
 /* ---- modes of ceduo_batch_run(): append the answer of one scene ---- */
 
 typedef enum exit_status ceduo_batch_answer(const struct arguments *arguments, struct scene_file *file, struct text *out);
-ceduo_batch_answer ceduo_print_report, ceduo_print_plots, ceduo_print_find, ceduo_print_uncertainty, ceduo_print_chapter;
+ceduo_batch_answer ceduo_print_report, ceduo_print_plots, ceduo_print_find, ceduo_print_uncertainty, ceduo_print_chapter,
+    ceduo_print_line;
+
+/* Append the command line that reproduces a page. */
+void ceduo_print_command(struct text *text, const struct arguments *arguments);
 
 /* ---- reading ---- */
 

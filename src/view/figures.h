@@ -103,6 +103,15 @@ void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns
 extern const struct ceduo_figure ceduo_result_figures[], ceduo_find_figures[];
 extern const struct ceduo_figure ceduo_uncertainty_figures[], ceduo_calibration_figures[];
 
+/* A row of --each. */
+struct ceduo_row_state {
+    const char *reason; /* reason of the failure; NULL: it did not fail */
+    const char *run;    /* hash of its input; NULL: not requested */
+};
+/* Columns before those of the result; the answer of a row that failed; its columns that are not empty (object: struct
+ * ceduo_row_state). */
+extern const struct ceduo_figure ceduo_row_figures[], ceduo_failed_figures[], ceduo_failed_columns[];
+
 /* CSV tables. Result: a row per option and control, year or stand; uncertainty: per figure and input; calibration: per
  * value; search: one row. */
 extern const struct ceduo_csv ceduo_control_csv, ceduo_year_csv, ceduo_stand_csv;

@@ -253,10 +253,9 @@ TEST(few_rocks_give_bounds)
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
         EXPECT_NEAR(h.intensity[i].rate.mean, 0.0005, 1e-15);
     assert_true(isnan(h.returns[3].energy.mean) &&
-                isnan(h.returns[3].energy.lo)); /* 0.0015 a year: less than one in 300 years */
-    EXPECT_NEAR(h.returns[3].energy.hi, 1e5,
-                0); /* 1/150 of the blocks: Wilson's bound of one in N is above, of two below */
-    assert_true(isnan(h.returns[1].energy.hi)); /* one in 30 years exceeds the upper bound of all three */
+                isnan(h.returns[3].energy.lo));  /* 0.0015 a year: less than one in 300 years */
+    EXPECT_NEAR(h.returns[3].energy.hi, 1e5, 0); /* 1/150 of the blocks: Wilson's bound of one in N is above, of two below */
+    assert_true(isnan(h.returns[1].energy.hi));  /* one in 30 years exceeds the upper bound of all three */
     assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h, NULL));
     assert_true(isnan(h.accepted.mean));
     EXPECT_NEAR(ceduo_hazard_judged_rate(&h).mean, 0.0015, 1e-15);
