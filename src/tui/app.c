@@ -351,9 +351,24 @@ void ceduo_app_resize(struct app *app, int width, int height)
     app->cells = cells;
     app->width = width;
     app->height = height;
+    app->drawn = false;
 }
 
 /* ---- drawing ---- */
+
+void ceduo_app_add_hit(struct app *app, struct hit hit)
+{
+    if (app->hits_count < HITS_MAX)
+        app->hits[app->hits_count++] = hit;
+}
+
+const char *ceduo_app_position(const struct app *app, const struct viewport *lines, int line)
+{
+    bool above = lines->first > 0, below = viewport_has_more(lines);
+    return above || below ? ceduo_app_format(app, "%d/%d %s%s", line + 1, lines->count, above ? "\xe2\x96\xb2" : "",
+                                             below ? "\xe2\x96\xbc" : "")
+                          : "";
+}
 
 void ceduo_app_draw_plot(struct app *app, enum ceduo_plot plot, struct ceduo_area area, const struct ceduo_picture *picture)
 {
@@ -424,7 +439,8 @@ void ceduo_app_draw_page(struct app *app, struct ceduo_area area, struct ceduo_p
     struct viewport *v = &ceduo_app_state(app)->text;
     viewport_fit(v, area.height, ceduo_page_draw(page, canvas, (struct ceduo_area){0}, 0));
     ceduo_page_draw(page, canvas, area, v->first);
-    if (viewport_has_more(v))
-        ceduo_app_draw_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
+    ceduo_canvas_label_right(canvas, area.left + area.width + 1, area.top + area.height, CEDUO_ROLE_TITLE,
+                             ceduo_app_position(app, v, v->first + v->rows - 1));
+    ceduo_app_add_hit(app, (struct hit){.area = area, .wheel = ceduo_app_scroll_text});
     ceduo_page_free(page);
 }

@@ -91,6 +91,16 @@ struct rock_trajectory {
 };
 
 #define PICTURES_MAX 3
+#define HITS_MAX     64
+
+/* An area that reacts to the mouse, recorded while it is drawn. The last one under the pointer counts. */
+struct hit {
+    struct ceduo_area area;
+    int key;                                         /* pressed by a click; K_NONE: `click` is called */
+    void (*click)(struct app *app, int x, int line); /* column and line from the corner of the area; may be NULL */
+    int first;                                       /* line of a list in the first row of the area */
+    void (*wheel)(struct app *app, int lines);       /* may be NULL */
+};
 
 /* The last screen with up-to-date figures, and its subject. */
 struct last_screen {
@@ -107,6 +117,9 @@ struct app {
     struct last_screen last_screen;
     struct ceduo_area pictures[PICTURES_MAX]; /* areas of figures on the screen */
     size_t pictures_count;
+    struct hit hits[HITS_MAX];
+    size_t hits_count;
+    bool drawn; /* neither input nor results since the screen was drawn: the hits are up to date */
     int width, height;
     enum ceduo_charset charset;
     int theme; /* 0 dark, 1 light, 2 none */
@@ -217,8 +230,11 @@ size_t ceduo_items_find_segment(const struct app *app, double x_written);
 /* Draw the screen on app->cells (screen.c). */
 void ceduo_screen_draw(struct app *app);
 
-/* Return the view whose title is at this column of the top row; VIEW_COUNT: none. */
-enum view_number ceduo_screen_find_view(struct app *app, int column);
+/* Let the mouse act on an area that was drawn. */
+void ceduo_app_add_hit(struct app *app, struct hit hit);
+
+/* Return the number of a line, with marks of lines above or below; "" if all lines are visible. It lives until the next key. */
+const char *ceduo_app_position(const struct app *app, const struct viewport *lines, int line);
 
 /* Draw wrapped text in a rectangle, without the first `skip` lines. Return the number of lines; the second only counts. */
 int ceduo_app_draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip);
@@ -235,14 +251,14 @@ void ceduo_app_draw_label(struct app *app, int x, int y, enum ceduo_role role, c
 /* Explain the keys of a pane until the next message, unless a popup is open. */
 void ceduo_app_show_hint(struct app *app, const char *text);
 
-/* Draw a page as the text of the view, and free it. A mark shows that it continues. Scroll it by n lines. */
+/* Draw a page as the text of the view, and free it. Its position stands in the line below. Scroll it by n lines. */
 void ceduo_app_draw_page(struct app *app, struct ceduo_area area, struct ceduo_page *page);
 void ceduo_app_scroll_text(struct app *app, int step);
 
 /* Draw a picture of figures. It is dimmed while the figures are stale. */
 void ceduo_app_draw_plot(struct app *app, enum ceduo_plot plot, struct ceduo_area area, const struct ceduo_picture *picture);
 
-/* Draw the form of the open view; nothing without height. */
+/* Draw the form of the open view below a line of its position; nothing without height. */
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area);
 
 #endif

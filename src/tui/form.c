@@ -368,20 +368,32 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
         draw_row(form, cells, (size_t)i, area.top + i - v->first, edit);
 }
 
-bool ceduo_form_click(struct form *form, int x, int y)
+/* Compute the first column of cell k; the label belongs to the first cell. The end of the last cell is that of the form. */
+static int cell_start(const struct form *form, const struct form_row *row, size_t k)
 {
-    const struct ceduo_area *area = &form->area;
-    size_t i = (size_t)(form->lines.first + y - area->top);
-    if (x < area->left || x >= area->left + area->width || y < area->top || y >= area->top + area->height || i >= form->n ||
-        !has_fields(&form->rows[i]))
-        return false;
-    form->row = i;
+    int from, span, width = form->area.width;
+    cell_place(row, width, label_columns(form, width), k, &from, &span);
+    return k == 0 ? 0 : k < row->n ? from : width;
+}
+
+void ceduo_form_click(struct form *form, int x, int row)
+{
+    if ((size_t)row >= form->n || !has_fields(&form->rows[row]))
+        return;
+    form->row = (size_t)row;
     form->column = 0;
-    for (size_t k = 0; k < form->rows[i].n; k++) {
-        int from, span;
-        cell_place(&form->rows[i], area->width, label_columns(form, area->width), k, &from, &span);
-        form->column = x - area->left >= from ? k : form->column;
-    }
+    while (form->column + 1 < form->rows[row].n && x >= cell_start(form, &form->rows[row], form->column + 1))
+        form->column++;
+}
+
+bool ceduo_form_find_cell(struct form *form, struct ceduo_area *area)
+{
+    const struct form_row *row = ceduo_form_row(form);
+    int line = (int)form->row - form->lines.first;
+    if (!row || line < 0 || line >= form->area.height)
+        return false;
+    int from = cell_start(form, row, form->column), to = cell_start(form, row, form->column + 1);
+    *area = (struct ceduo_area){form->area.left + from, form->area.top + line, to - from, 1};
     return true;
 }
 

@@ -38,7 +38,7 @@ struct form {
     size_t n, capacity;
     size_t row, column; /* the cursor */
     struct viewport lines;
-    struct ceduo_area area; /* position on the screen, for the mouse */
+    struct ceduo_area area; /* position on the screen */
 };
 
 void ceduo_form_clear(struct form *form, const struct document *document); /* the cursor stays */
@@ -71,8 +71,9 @@ struct form_row *ceduo_form_row(struct form *form);
 /* Draw the lines, scrolled to the cursor. `edit`: text shown in the cell under the cursor; may be NULL. */
 void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit);
 
-/* Move the cursor to the cell at a screen position. Return false if there is none. */
-bool ceduo_form_click(struct form *form, int x, int y);
+/* Move the cursor to the cell in a column of line `row`. Find the area of the cell under the cursor; false: not shown. */
+void ceduo_form_click(struct form *form, int x, int row);
+bool ceduo_form_find_cell(struct form *form, struct ceduo_area *area);
 
 /* Explain the cell under the cursor: meaning, unit, range, default, source. */
 void ceduo_form_explain(struct form *form, struct text *text);

@@ -313,15 +313,14 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
     ceduo_app_draw_wrapped(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, 0);
 }
 
-/* Draw marks on the frame for lines above or below. */
-static void draw_more(struct app *app, const struct popup *p, const struct viewport *lines)
+/* Draw the position on the frame, at its top or bottom. */
+static void draw_position(struct app *app, const struct popup *p, bool top, const struct viewport *lines, int line)
 {
-    const struct ceduo_area *r = &p->box;
-    const char *words[] = {_("more above"), _("more below")};
-    for (int i = 0; i < 2; i++)
-        if (i == 0 ? lines->first > 0 : viewport_has_more(lines))
-            ceduo_app_draw_label(app, r->left + r->width - 4 - (int)ceduo_utf8_width(words[i]),
-                                 i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, " %s ", words[i]);
+    const char *position = ceduo_app_position(app, lines, line);
+    if (position[0])
+        ceduo_canvas_label_right(&app->cells->canvas, p->box.left + p->box.width - 3,
+                                 p->box.top + (top ? 0 : p->box.height - 1), CEDUO_ROLE_TITLE,
+                                 ceduo_app_format(app, " %s ", position));
 }
 
 #define NOTE_LINES 6
@@ -348,18 +347,46 @@ static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines,
     return inner;
 }
 
+static void scroll_text(struct app *app, int lines)
+{
+    viewport_scroll(&app->popup->lines, lines);
+}
+
 static void draw_text(struct app *app, struct popup *p)
 {
     struct ceduo_area inner = draw_frame(app, p, app->height, 0);
     viewport_fit(&p->lines, inner.height, ceduo_app_count_lines(app, ceduo_text_string(&p->text), inner.width));
     ceduo_app_draw_wrapped(app, inner, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), p->lines.first);
-    draw_more(app, p, &p->lines);
+    draw_position(app, p, false, &p->lines, p->lines.first + p->lines.rows - 1);
+    ceduo_app_add_hit(app, (struct hit){.area = inner, .wheel = scroll_text});
 }
 
+static void click_item(struct app *app, int x, int line)
+{
+    (void)x;
+    if ((size_t)line < app->popup->picker.matches)
+        app->popup->picker.lines.selected = line;
+    app->popup->cursor_moved = true;
+}
+
+static void move_item(struct app *app, int lines)
+{
+    ceduo_popup_key(app, lines < 0 ? K_UP : K_DOWN);
+}
+
+/* Draw the items. A click on the selected one chooses it; below fields only if the cursor was moved there. */
 static void draw_items(struct app *app, struct popup *p, struct ceduo_area area)
 {
+    const struct viewport *v = &p->picker.lines;
     ceduo_picker_draw(&p->picker, app->cells, area);
-    draw_more(app, p, &p->picker.lines);
+    if (p->picker.matches == 0)
+        return;
+    draw_position(app, p, false, v, v->selected);
+    ceduo_app_add_hit(app, (struct hit){.area = area, .click = click_item, .first = v->first, .wheel = move_item});
+    if (p->kind == POPUP_LIST || p->cursor_moved)
+        ceduo_app_add_hit(app, (struct hit){.area = {area.left, area.top + v->selected - v->first, area.width, 1},
+                                            .key = K_ENTER,
+                                            .wheel = move_item});
 }
 
 /* Draw an input line, scrolled to its end. */
@@ -391,6 +418,17 @@ static void draw_list(struct app *app, struct popup *p)
 #define ITEMS_SHOWN   6  /* items below the fields */
 #define PICTURE_SHOWN 16 /* lines of a picture in place of items */
 
+/* Go to a field as keys do: each field on the way down is checked. */
+static void click_field(struct app *app, int x, int line)
+{
+    struct popup *p = app->popup;
+    (void)x;
+    for (size_t last = SIZE_MAX; app->popup == p && p->current != (size_t)line && p->current != last;) {
+        last = p->current;
+        handle_fields_key(app, p, (size_t)line < last ? K_SHIFT_TAB : K_ENTER);
+    }
+}
+
 static void draw_fields(struct app *app, struct popup *p)
 {
     int items = 0;
@@ -401,12 +439,15 @@ static void draw_fields(struct app *app, struct popup *p)
     int x = inner.left + 32, width = inner.width - 32, n = (int)p->fields_count, current = (int)p->current;
     viewport_fit(&p->lines, n <= inner.height - FOOT_MIN ? n : inner.height - FOOT_MIN, n);
     viewport_show(&p->lines, current, current);
+    ceduo_app_add_hit(app, (struct hit){.area = {inner.left, inner.top, inner.width, p->lines.rows},
+                                        .click = click_field,
+                                        .first = p->lines.first});
     for (int i = p->lines.first; i < p->lines.first + p->lines.rows; i++) {
         struct ceduo_area line = cut_top(&inner, 1);
         ceduo_canvas_draw_text(&app->cells->canvas, line.left, line.top, 31, CEDUO_ROLE_DIM, p->fields[i].label);
         draw_input(app, &p->fields[i].line, x, line.top, width, i == current);
     }
-    draw_more(app, p, &p->lines);
+    draw_position(app, p, true, &p->lines, current);
     struct ceduo_area first = {inner.left, inner.top, inner.width, inner.height < 2 ? inner.height : 2};
     ceduo_app_draw_wrapped(app, first, CEDUO_ROLE_WARN, app->message, 0);
     if (p->picture && (!p->fields[p->current].complete || p->picker.matches == 0) && !app->message[0])

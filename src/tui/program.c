@@ -143,7 +143,8 @@ static void show_help(struct app *app)
                     "match is first. a and y split a ground, a belt or a segment of the profile. Neighbours follow a moved "
                     "border.\nThe right column: arrivals per 1000 rocks released, without and with forest; the three lights; "
                     "energy absorbed and remaining by the index (Eq. 4 and 5 of Ciabocco et al. 2009); uncertainty.\nMouse: "
-                    "click a field or the name of a view; the wheel scrolls; hold Shift to select text in the terminal.\n"));
+                    "click a view, a key, a field, an item, an option, a year or the slope; click again for Enter; the wheel "
+                    "scrolls what is under it; hold Shift to select text in the terminal.\n"));
     ceduo_text_format(&p->text, " \n%s\n", _("Words"));
     for (size_t i = 0; i < sizeof glossary / sizeof glossary[0]; i++)
         ceduo_text_format(&p->text, "  %s: %s\n", _(glossary[i].word), _(glossary[i].meaning));
@@ -206,6 +207,7 @@ static void run_action(struct app *app, enum action action)
 static void begin_input(struct app *app)
 {
     ceduo_arena_free(app->scratch);
+    app->drawn = false;
     if (!app->popup) {
         app->message[0] = '\0';
         app->after_save = NULL;
@@ -244,35 +246,39 @@ void ceduo_program_paste(struct app *app, const char *text)
     end_input(app);
 }
 
-/* Open the view of the clicked title, or move the cursor to a field. A second click edits the field. */
+/* Find the area under the pointer, on the screen after all inputs and results. */
+static struct hit find_hit(struct app *app, int x, int y)
+{
+    if (!app->drawn)
+        ceduo_screen_draw(app);
+    for (size_t i = app->hits_count; i-- > 0;) {
+        const struct hit *hit = &app->hits[i];
+        int column = x - hit->area.left, line = y - hit->area.top;
+        if (column >= 0 && column < hit->area.width && line >= 0 && line < hit->area.height)
+            return *hit;
+    }
+    return (struct hit){0};
+}
+
 void ceduo_program_click(struct app *app, int x, int y)
 {
-    struct view_state *state = ceduo_app_state(app);
-    size_t row = state->form.row, column = state->form.column;
-    if (app->popup) /* a popup stays */
+    struct hit hit = find_hit(app, x, y);
+    if (hit.key != K_NONE) {
+        ceduo_program_key(app, hit.key);
         return;
-    begin_input(app);
-    if (y == 0) {
-        enum view_number view = ceduo_screen_find_view(app, x);
-        if (view < VIEW_COUNT)
-            ceduo_app_show(app, view);
-    } else if (ceduo_form_click(&state->form, x, y)) {
-        if (state->form.row == row && state->form.column == column && state->pane == 0)
-            ceduo_edit_start(app);
-        state->pane = 0;
     }
+    begin_input(app);
+    if (hit.click)
+        hit.click(app, x - hit.area.left, y - hit.area.top + hit.first);
     end_input(app);
 }
 
-void ceduo_program_wheel(struct app *app, int lines)
+void ceduo_program_wheel(struct app *app, int x, int y, int lines)
 {
-    if (app->popup && app->popup->kind == POPUP_FIELD)
-        return;
+    struct hit hit = find_hit(app, x, y);
     begin_input(app);
-    if (app->popup)
-        ceduo_popup_key(app, lines < 0 ? K_UP : K_DOWN);
-    else
-        move_lines(app, lines);
+    if (hit.wheel)
+        hit.wheel(app, lines);
     end_input(app);
 }
 
@@ -289,6 +295,7 @@ bool ceduo_program_poll(struct app *app)
     ceduo_arena_free(app->scratch);
     const struct ceduo_scene *scene = &app->document.file.scene;
     bool changed = ceduo_live_poll(&app->live, scene);
+    app->drawn = false;
     const struct ceduo_years *years = ceduo_live_years(&app->live, scene, app->option);
     union results *results = &app->live.results;
     if (years && app->year >= years->count)

@@ -12,7 +12,7 @@ bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset 
 void ceduo_program_key(struct app *app, int key);
 void ceduo_program_paste(struct app *app, const char *text); /* into the open input line; otherwise ignored */
 void ceduo_program_click(struct app *app, int x, int y);
-void ceduo_program_wheel(struct app *app, int step);
+void ceduo_program_wheel(struct app *app, int x, int y, int lines);
 bool ceduo_program_poll(struct app *app); /* take the results of the jobs; return true if the screen has changed */
 
 /* Run a script without a terminal, one command per line (see ceduo-terminal(7)). Errors go to standard error. */

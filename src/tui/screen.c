@@ -83,24 +83,18 @@ static int title_columns(struct app *app, int view)
     return name_columns(app, view, max);
 }
 
-enum view_number ceduo_screen_find_view(struct app *app, int column)
-{
-    int v = 0;
-    for (int end = 0; v < VIEW_COUNT; v++)
-        if (column < (end += title_columns(app, v)))
-            break;
-    return (enum view_number)v;
-}
-
 /* Draw the titles of the views, and the scene's name. Return true if there is one. */
 static bool draw_title(struct app *app)
 {
     int x = 0;
-    for (int v = 0; v < VIEW_COUNT; x += title_columns(app, v++))
-        ceduo_canvas_draw_text(&app->cells->canvas, x, 0, title_columns(app, v),
-                               v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
+    for (int v = 0; v < VIEW_COUNT; v++) {
+        int columns = title_columns(app, v);
+        ceduo_canvas_draw_text(&app->cells->canvas, x, 0, columns, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
                                ceduo_app_format(app, app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
                                                 ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help)));
+        ceduo_app_add_hit(app, (struct hit){.area = {x, 0, columns, 1}, .key = ceduo_actions[ACTION_VIEW_SLOPE + v].key});
+        x += columns;
+    }
     const char *name = scene_name(app);
     ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 0, CEDUO_ROLE_TITLE, name);
     return *name;
@@ -190,9 +184,10 @@ static void draw_explanation(struct app *app)
     ceduo_text_append_escaped(&safe, ceduo_text_string(&text));
     ceduo_app_shorten(app, &safe, lines.width, lines.height);
     const char *shown = ceduo_text_string(&safe);
-    if ((int)ceduo_utf8_width(shown) > app->width)
+    if ((int)ceduo_utf8_width(shown) > app->width) {
+        ceduo_cells_clear_area(app->cells, lines); /* also the position of a text above */
         ceduo_app_draw_wrapped(app, lines, role, shown, 0);
-    else
+    } else
         ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 2, app->width, role, shown);
 }
 
@@ -210,9 +205,31 @@ static bool draw_key(struct app *app, int *x, enum action action, const char *wo
         return false;
     ceduo_app_draw_label(app, *x, app->height - 1, CEDUO_ROLE_TITLE, "%s", key);
     ceduo_app_draw_label(app, *x + (int)ceduo_utf8_width(key) + 1, app->height - 1, CEDUO_ROLE_DIM, "%s", _(word));
+    ceduo_app_add_hit(app, (struct hit){.area = {*x, app->height - 1, width - 2, 1}, .key = ceduo_actions[action].key});
     *x += width;
     *space -= width;
     return true;
+}
+
+/* Draw the keys of the popup, separated by two blanks. Only they and the popup react to the mouse. */
+static void draw_popup_bar(struct app *app)
+{
+    const char *help = ceduo_popup_key_help(app);
+    ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM, help);
+    app->hits_count = 0;
+    for (const char *part = help, *end; *part; part = end + strspn(end, " ")) {
+        int x = (int)ceduo_utf8_width(ceduo_app_format(app, "%.*s", (int)(part - help), help)), action = 0;
+        size_t word = strcspn(part, " ");
+        end = strstr(part, "  ");
+        end = end ? end : part + strlen(part);
+        while (action < ACTION_COUNT &&
+               (strncmp(ceduo_actions[action].word, part, word) != 0 || ceduo_actions[action].word[word]))
+            action++;
+        int key = action < ACTION_COUNT ? ceduo_actions[action].key : app->popup->kind == POPUP_TEXT ? K_ESCAPE : K_NONE;
+        int width = (int)ceduo_utf8_width(ceduo_app_format(app, "%.*s", (int)(end - part), part));
+        if (key < ' ')
+            ceduo_app_add_hit(app, (struct hit){.area = {x, app->height - 1, width, 1}, .key = key});
+    }
 }
 
 /* Draw the view's own keys, then the common ones. The most important keys always fit. */
@@ -221,7 +238,7 @@ static void draw_bar(struct app *app)
     const struct view *view = ceduo_views[app->view];
     int x = 0, space = app->width + 2;
     if (app->popup) {
-        ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM, ceduo_popup_key_help(app));
+        draw_popup_bar(app);
         return;
     }
     for (int i = 0; i < ACTION_COUNT; i++)
@@ -240,10 +257,50 @@ static void draw_bar(struct app *app)
     }
 }
 
+/* ---- the form ---- */
+
+static void click_form(struct app *app, int x, int line)
+{
+    ceduo_form_click(ceduo_app_form(app), x, line);
+}
+
+static void move_form(struct app *app, int lines)
+{
+    ceduo_form_move(ceduo_app_form(app), lines, 0);
+}
+
+/* Draw the belt and the option shown if there are several, and the position in the form. */
+static void draw_form_head(struct app *app, struct ceduo_area area)
+{
+    const struct form *form = ceduo_app_form(app);
+    size_t belts = ceduo_app_option(app)->belts_count, options = app->document.file.scene.options_count;
+    const char *forest = ceduo_app_forest(app);
+    bool has_belts = false;
+    LOCAL_TEXT(head);
+    for (size_t i = 0; i < form->n; i++)
+        has_belts |= strcmp(form->rows[i].list, forest) == 0;
+    if (has_belts && belts > 1)
+        ceduo_text_format(&head, _("belt %zu of %zu"), app->belt + 1, belts);
+    if (options > 1)
+        ceduo_text_append_joined(&head, head.length > 0 ? " \xc2\xb7 " : "", _("option %zu of %zu"), app->option + 1, options);
+    const char *position = ceduo_app_position(app, &form->lines, (int)form->row);
+    if (position[0])
+        ceduo_text_append_joined(&head, head.length > 0 ? " \xc2\xb7 " : "", "%s", position);
+    ceduo_canvas_draw_text(&app->cells->canvas, area.left, area.top, area.width, CEDUO_ROLE_TITLE, ceduo_text_string(&head));
+}
+
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
 {
     const struct popup *p = app->popup && app->popup->kind == POPUP_FIELD ? app->popup : NULL;
-    ceduo_form_draw(ceduo_app_form(app), app->cells, area, p ? p->fields[0].line.text : NULL);
+    struct form *form = ceduo_app_form(app);
+    struct ceduo_area head = cut_top(&area, area.height > 0), cell;
+    ceduo_form_draw(form, app->cells, area, p ? p->fields[0].line.text : NULL);
+    if (area.height <= 0)
+        return;
+    draw_form_head(app, head);
+    ceduo_app_add_hit(app, (struct hit){.area = area, .click = click_form, .first = form->lines.first, .wheel = move_form});
+    if (ceduo_form_find_cell(form, &cell))
+        ceduo_app_add_hit(app, (struct hit){.area = cell, .key = K_ENTER, .wheel = move_form});
 }
 
 /* Draw the newest figures. Warnings that do not fit are only counted. `titled`: with the scene's title. */
@@ -274,7 +331,8 @@ static void draw_column(struct app *app, struct ceduo_area area, bool titled)
 void ceduo_screen_draw(struct app *app)
 {
     ceduo_cells_clear(app->cells);
-    app->pictures_count = 0;
+    app->pictures_count = app->hits_count = 0;
+    app->drawn = true;
     if (app->width < WIDTH_MIN || app->height < HEIGHT_MIN) {
         struct ceduo_area whole = {0, 0, app->width, app->height};
         const char *text = ceduo_app_format(app, _("The window (%d x %d) is too small: at least %d x %d is needed. q quits."),

@@ -190,10 +190,15 @@ static void set_handlers(void)
 
 /* ---- drawing ---- */
 
-static void show_screen(struct app *app, bool colours)
+static void fit_screen(struct app *app)
 {
     if (app->width != COLS || app->height != LINES || !app->cells)
         ceduo_app_resize(app, COLS, LINES);
+}
+
+static void show_screen(struct app *app, bool colours)
+{
+    fit_screen(app);
     ceduo_screen_draw(app);
     if (app->redraw)
         clearok(curscr, TRUE);
@@ -323,17 +328,26 @@ static void flush_escape(struct app *app)
     }
 }
 
+#define EVENTS_MAX 8 /* as curses keeps */
+
+/* Handle all events that curses has read at once. It returns the newest first, and one that stays would come with a later
+ * click. */
 static void handle_mouse(struct app *app)
 {
-    MEVENT event;
-    if (getmouse(&event) != OK || input.pasting)
-        return;
-    if (event.bstate & BUTTON4_PRESSED)
-        ceduo_program_wheel(app, -3);
-    else if (event.bstate & BUTTON5_PRESSED)
-        ceduo_program_wheel(app, 3);
-    else if (event.bstate & (BUTTON1_PRESSED | BUTTON1_CLICKED))
-        ceduo_program_click(app, event.x, event.y);
+    MEVENT events[EVENTS_MAX];
+    int n = 0;
+    while (n < EVENTS_MAX && getmouse(&events[n]) == OK)
+        n++;
+    while (n-- > 0 && !input.pasting && !app->quit) {
+        const MEVENT *event = &events[n];
+        fit_screen(app);
+        if (event->bstate & BUTTON4_PRESSED)
+            ceduo_program_wheel(app, event->x, event->y, -3);
+        else if (event->bstate & BUTTON5_PRESSED)
+            ceduo_program_wheel(app, event->x, event->y, 3);
+        else if (event->bstate & (BUTTON1_PRESSED | BUTTON1_CLICKED))
+            ceduo_program_click(app, event->x, event->y);
+    }
 }
 
 /* Handle all waiting keys. Return true if there was one. */

@@ -27,6 +27,41 @@ static void draw_compare_picture(struct app *app, enum ceduo_plot plot, struct c
     ceduo_app_draw_plot(app, plot, area, &p);
 }
 
+static void select_option(struct app *app, long i)
+{
+    struct viewport v = {.count = (int)app->document.file.scene.options_count};
+    viewport_move(&v, (int)i);
+    ceduo_app_show_option(app, (size_t)v.selected);
+}
+
+static void step_option(struct app *app, int step)
+{
+    select_option(app, (long)app->option + step);
+}
+
+/* Select the next option: the wheel moves by one. */
+static void step_options(struct app *app, int lines)
+{
+    step_option(app, lines < 0 ? -1 : 1);
+}
+
+static void click_option(struct app *app, int column, int option)
+{
+    (void)column;
+    ceduo_app_show_option(app, (size_t)option);
+}
+
+/* Let the mouse act on the last `shown` of `lines` lines. A click on the selected option renames it, as Enter does. */
+static void add_option_hits(struct app *app, struct ceduo_area area, int lines, int first, int shown)
+{
+    cut_top(&area, lines - shown);
+    area.height = shown;
+    ceduo_app_add_hit(app, (struct hit){.area = area, .click = click_option, .first = first, .wheel = step_options});
+    cut_top(&area, (int)app->option - first);
+    area.height = 1;
+    ceduo_app_add_hit(app, (struct hit){.area = area, .key = K_ENTER, .wheel = step_options});
+}
+
 /* Draw the table around the option under the cursor, the text below it, and a picture if there is space. */
 static void draw_options(struct app *app, struct ceduo_area area)
 {
@@ -38,6 +73,9 @@ static void draw_options(struct app *app, struct ceduo_area area)
     size_t first = app->option >= shown ? app->option - shown + 1 : 0;
     ceduo_page_shares(&table, pane.report, true);
     ceduo_page_options(&table, pane.report, CEDUO_OPTIONS_PANE, pane.report->result->last_control, app->option, first, shown);
+    if (table.last->cells_count == (shown + 1) * table.last->columns_count) /* head and options */
+        add_option_hits(app, area, ceduo_page_draw(&table, &app->cells->canvas, (struct ceduo_area){0}, 0), (int)first,
+                        (int)shown);
     if (shown < n)
         ceduo_page_para(&table, CEDUO_PAGE_NOTE, _("%zu\xe2\x80\x93%zu of %zu options; up, down: the others"), first + 1,
                         first + shown, n);
@@ -71,18 +109,6 @@ static void draw_compare(struct app *app, struct ceduo_area area)
         draw_compare_picture(app, pane == PANE_TRADEOFF ? CEDUO_PLOT_TRADEOFF : CEDUO_PLOT_COMPARE, picture);
     if (pane == PANE_TABLE)
         draw_options(app, table);
-}
-
-static void select_option(struct app *app, long i)
-{
-    struct viewport v = {.count = (int)app->document.file.scene.options_count};
-    viewport_move(&v, (int)i);
-    ceduo_app_show_option(app, (size_t)v.selected);
-}
-
-static void step_option(struct app *app, int step)
-{
-    select_option(app, (long)app->option + step);
 }
 
 static void copy_option(struct app *app)

@@ -251,8 +251,7 @@ static void draw_observed(struct app *app, struct ceduo_area area)
     if (fit)
         state->pane = PANE_TEXT;
     int lines = state->pane == PANE_TEXT ? 0 : (int)state->form.n, form = area.height / 3 < lines ? area.height / 3 : lines;
-    ceduo_app_draw_form(app, cut_bottom(&area, form));
-    cut_bottom(&area, form > 0);
+    ceduo_app_draw_form(app, cut_bottom(&area, form + (form > 0)));
     area.width -= 2; /* columns for the mark that the text continues */
     struct ceduo_page page = {.width = (size_t)area.width};
     if (file->observations_count == 0) {

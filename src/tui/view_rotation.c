@@ -69,15 +69,33 @@ static void append_summary(struct app *app, const struct ceduo_years *years, str
     ceduo_words_year_numbering(text, years->rocks);
 }
 
+static void step_year(struct app *app, int step)
+{
+    const struct ceduo_years *years = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
+    struct viewport v = {.selected = (int)app->year, .count = years ? (int)years->count : 0};
+    viewport_move(&v, step);
+    app->year = v.count > 0 ? (size_t)v.selected : app->year;
+}
+
+/* Select the year below the pointer. */
+static void click_year(struct app *app, int column, int row)
+{
+    const struct ceduo_span *span = ceduo_app_private_state(app);
+    (void)row;
+    ceduo_app_state(app)->pane = 1;
+    step_year(app, (int)lround(column * (span->x1 - span->x0) / (span->width - 1)) - (int)app->year);
+}
+
 #define PICTURE_MIN     7 /* min. lines of the picture with the form: only the curve */
 #define PICTURE_ALONE   9 /* min. lines with the lights */
-#define FORM_MIN        3 /* min. lines of the form; wanted lines: */
-#define FORM_WANTED     8
+#define FORM_MIN        4 /* min. lines of the form; wanted lines: */
+#define FORM_WANTED     9
 #define HEIGHT_FOR_FORM 18
 
 static void draw_rotation(struct app *app, struct ceduo_area area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app);
+    struct ceduo_span *span = picture.span = ceduo_app_private_state(app);
     bool picture_only = ceduo_app_state(app)->pane == 1;
     struct text text = {0};
     if (picture.years && app->live.result && picture.years->count > 0) {
@@ -96,15 +114,10 @@ static void draw_rotation(struct app *app, struct ceduo_area area)
         ceduo_app_show_hint(app, _("left, right: another year; Tab: back to the form"));
     ceduo_app_draw_form(app, cut_bottom(&area, form));
     ceduo_app_draw_text(app, cut_bottom(&area, words), CEDUO_ROLE_TEXT, &text);
+    *span = (struct ceduo_span){0};
     ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &area, &picture);
-}
-
-static void step_year(struct app *app, int step)
-{
-    const struct ceduo_years *years = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
-    struct viewport v = {.selected = (int)app->year, .count = years ? (int)years->count : 0};
-    viewport_move(&v, step);
-    app->year = v.count > 0 ? (size_t)v.selected : app->year;
+    if (span->width > 1)
+        ceduo_app_add_hit(app, (struct hit){.area = {span->left, area.top, span->width, area.height}, .click = click_year});
 }
 
 static const struct key_binding rotation_bindings[] = {KEY(RIGHT, .handler = step_year, .step = 1),
@@ -115,6 +128,7 @@ static const struct key_binding rotation_bindings[] = {KEY(RIGHT, .handler = ste
 
 const struct view ceduo_view_rotation = {
     .panes = 2,
+    .private_size = sizeof(struct ceduo_span),
     .build = build_rotation,
     .draw = draw_rotation,
     .bindings = {NULL, rotation_bindings},

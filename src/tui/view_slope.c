@@ -63,9 +63,10 @@ static void build_slope(struct app *app, struct form *form)
 /* ---- the cursor along the slope ---- */
 
 struct slope_cursor {
-    double x;    /* m, relative */
-    int zoom;    /* magnification 2^zoom */
-    bool is_set; /* x was set by a move */
+    double x;               /* m, relative */
+    int zoom;               /* magnification 2^zoom */
+    bool is_set;            /* x was set by a move */
+    struct ceduo_span span; /* columns of the last picture */
 };
 
 static double slope_length(const struct app *app)
@@ -94,11 +95,16 @@ static double shown_length(const struct app *app)
     return ldexp(slope_length(app), -((const struct slope_cursor *)ceduo_app_private_state(app))->zoom);
 }
 
+/* Return the interval of round numbers at which the cursor stops, m. */
+static double cursor_grid(const struct app *app)
+{
+    return ceduo_plot_round(shown_length(app) / STEPS * 2, false);
+}
+
 /* Move by a hundredth of the part shown, to a round number. */
 static void move_cursor(struct app *app, int step)
 {
-    double origin = app->document.file.scene.slope.origin_x;
-    double grid = ceduo_plot_round(shown_length(app) / STEPS * 2, false);
+    double origin = app->document.file.scene.slope.origin_x, grid = cursor_grid(app);
     double steps = (cursor_x(app) + origin) / grid;
     set_cursor(app, (step > 0 ? floor(steps + 1e-9) + step : ceil(steps - 1e-9) + step) * grid - origin);
 }
@@ -259,25 +265,65 @@ static void sync_shown_belt(struct app *app)
         ceduo_app_sync_belt(app);
 }
 
+/* Put the cursor on the slope below the pointer. */
+static void click_slope(struct app *app, int column, int row)
+{
+    const struct ceduo_span *span = &((const struct slope_cursor *)ceduo_app_private_state(app))->span;
+    double origin = app->document.file.scene.slope.origin_x, grid = cursor_grid(app);
+    (void)row;
+    ceduo_app_state(app)->pane = PANE_PLACE;
+    set_cursor(app, round((span->x0 + column * (span->x1 - span->x0) / (span->width - 1) + origin) / grid) * grid - origin);
+}
+
+/* Let the mouse act on the columns of the slope. A click on the cursor opens its list. */
+static void add_slope_hits(struct app *app, struct ceduo_area area)
+{
+    const struct ceduo_span *span = &((const struct slope_cursor *)ceduo_app_private_state(app))->span;
+    if (span->width < 2 || !(span->x1 > span->x0))
+        return;
+    area.left = span->left;
+    area.width = span->width;
+    ceduo_app_add_hit(app, (struct hit){.area = area, .click = click_slope});
+    if (ceduo_app_state(app)->pane != PANE_PLACE)
+        return;
+    area.left += (int)lround((cursor_x(app) - span->x0) / (span->x1 - span->x0) * (span->width - 1)) - 1;
+    area.width = 3;
+    ceduo_app_add_hit(app, (struct hit){.area = area, .key = K_ENTER});
+}
+
 /* Draw the picture, with the form below it if the form has the focus. */
 static void draw_slope(struct app *app, struct ceduo_area area)
 {
     ceduo_app_trace_rock(app);
-    struct ceduo_span span;
+    struct slope_cursor *cursor = ceduo_app_private_state(app);
     struct ceduo_picture picture = ceduo_app_picture(app);
+    const struct form_row *form_row = ceduo_form_row(ceduo_app_form(app));
+    const struct ceduo_scene *scene = picture.scene;
     double mark = cursor_x(app);
-    picture.span = &span;
+    cursor->span = (struct ceduo_span){0};
+    picture.span = &cursor->span;
     bool picture_only = ceduo_app_state(app)->pane != PANE_FORM;
     double shown = shown_length(app);
     if (shown < slope_length(app)) { /* stretch around the cursor */
         picture.from = fmin(fmax(0, mark - shown / 2), slope_length(app) - shown);
         picture.to = picture.from + shown;
     }
-    ceduo_app_draw_form(app, cut_bottom(&area, picture_only ? 0 : area.height / 3));
+    ceduo_app_draw_form(app, cut_bottom(&area, picture_only ? 0 : area.height / 3 + 1));
+    struct ceduo_area whole = area;
     bool has_cursor = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: use all rows for the slope at true scale */
-    int rows = area.height, strips = has_cursor ? 0 : rows >= 24 ? 2 : rows >= 13 ? 1 : 0, strip = rows >= 24 ? rows / 4 : 5;
-    if (has_cursor)
+    int rows = area.height + !picture_only,
+        strips = has_cursor   ? 0
+                 : rows >= 24 ? 2
+                 : rows >= 13 ? 1
+                              : 0,
+        strip = rows >= 24 ? rows / 4 : 5;
+    bool on_control =
+        !picture_only && form_row && strcmp(form_row->list, "controls") == 0 && form_row->index < scene->controls_count;
+    if (on_control)
+        mark = scene->controls[form_row->index].x;
+    if (has_cursor || on_control)
         picture.mark = &mark;
+    picture.mark_belt = ceduo_app_option(app)->belts_count > 1;
     if (has_cursor)
         hint_cursor(app);
     else if (picture_only)
@@ -289,6 +335,7 @@ static void draw_slope(struct app *app, struct ceduo_area area)
     picture.no_x_axis = strips < 2;
     if (strips > 0)
         ceduo_app_draw_plot(app, CEDUO_PLOT_ENERGY, cut_top(&area, strip), &picture);
+    add_slope_hits(app, whole);
 }
 
 static void change_zoom(struct app *app, int step)

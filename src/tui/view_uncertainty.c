@@ -24,8 +24,7 @@ static void build_ranges(struct app *app, struct form *form)
 /* Draw the picture and its text, which scroll together, and the ranges of the scene. */
 static void draw_uncertainty(struct app *app, struct ceduo_area area)
 {
-    ceduo_app_draw_form(app, cut_bottom(&area, ceduo_app_form(app)->n > 1 ? area.height / 4 : 1));
-    cut_bottom(&area, 1);
+    ceduo_app_draw_form(app, cut_bottom(&area, 1 + (ceduo_app_form(app)->n > 1 ? area.height / 4 : 1)));
     area.width -= 2;
     struct ceduo_page page = {.width = (size_t)area.width};
     struct ceduo_picture picture = ceduo_app_picture(app);

@@ -24,6 +24,7 @@ struct ceduo_picture {
     const struct ceduo_snapshot *snapshot;    /* NULL: not computed yet */
     size_t option, belt, control;             /* indices; out of range: the picture reports it */
     const struct ceduo_polyline *selected;    /* trajectory of the selected rock, drawn on top; may be NULL */
+    bool mark_belt;                           /* mark the belt in the profile */
     const double *mark;                       /* position to mark in the profile, m, relative; may be NULL */
     double from, to;                          /* part of the slope to show, m, relative; from == to: all */
     const struct ceduo_stem_encounter *stems; /* encountered by the selected rock, in its order; NULL: unknown */
@@ -31,7 +32,7 @@ struct ceduo_picture {
     const struct ceduo_years *years;     /* years of the option; NULL: not computed */
     size_t year;                         /* index of the year under the cursor; out of range: none */
     const struct ceduo_verdict *verdict; /* verdict on all options; NULL: not computed */
-    struct ceduo_span *span;             /* columns of the slope: set by the profile, used by strips; NULL: from the area */
+    struct ceduo_span *span; /* columns of the slope: set by profile and rotation, used by strips; NULL: from the area */
     const struct ceduo_uncertainty_report *uncertainty; /* NULL: not computed */
     bool no_x_axis;                                     /* strip with another strip below it */
     bool trajectories;                                  /* the strip of heights shows each trajectory, too */

@@ -190,7 +190,8 @@ static void label_control(const struct ceduo_drawing *d, const struct ceduo_cont
         int start = i % 2 ? column - 1 - width : column + 2, y = d->area.top + i / 2;
         if (!is_clear_space(d->canvas, &d->area, start, y, width))
             continue;
-        ceduo_canvas_label(d->canvas, start, y, CEDUO_ROLE_CONTROL, name.bytes);
+        bool marked = d->picture->mark && fabs(*d->picture->mark - control->x) < 1e-9;
+        ceduo_canvas_label(d->canvas, start, y, marked ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_CONTROL, name.bytes);
         if (i < 2 && ceduo_canvas_is_blank(d->canvas, column, y)) /* another name may occupy the cell */
             ceduo_canvas_label(d->canvas, column, y, CEDUO_ROLE_CONTROL, "\xe2\x96\xbc");
         break;
@@ -218,7 +219,7 @@ static void label_forest(const struct ceduo_drawing *d)
         ceduo_plot_print(d->canvas, end - 1, d->area.top + row, -max, CEDUO_ROLE_CLOUD, "%s", name.bytes);
 }
 
-/* Draw ├── ADS 1 ──┤ below the axis. */
+/* Draw ├── ADS 1 ──┤ below the axis, and ╞══ ADS 2 ══╡ for the belt under the cursor. */
 static void draw_belts(const struct ceduo_drawing *d)
 {
     const struct ceduo_frame *f = &d->frame;
@@ -232,11 +233,13 @@ static void draw_belts(const struct ceduo_drawing *d)
         int from = f->left + (int)lround((fmax(belt->from, f->x0) - f->x0) * per_metre);
         int to = f->left + (int)lround((fmin(belt->to, f->x1) - f->x0) * per_metre);
         LOCAL_TEXT(name);
+        bool marked = d->picture->mark_belt && i == d->picture->belt;
         for (int column = from; column < to; column++)
             ceduo_canvas_label(d->canvas, column, row, CEDUO_ROLE_BELT,
-                               to - from == 1     ? "\xe2\x94\x82"
-                               : column == from   ? "\xe2\x94\x9c"
-                               : column == to - 1 ? "\xe2\x94\xa4"
+                               to - from == 1     ? marked ? "\xe2\x95\x91" : "\xe2\x94\x82"
+                               : column == from   ? marked ? "\xe2\x95\x9e" : "\xe2\x94\x9c"
+                               : column == to - 1 ? marked ? "\xe2\x95\xa1" : "\xe2\x94\xa4"
+                               : marked           ? "\xe2\x95\x90"
                                                   : "\xe2\x94\x80");
         ceduo_text_append_char(&name, ' ');
         ceduo_plot_belt_name(&name, belt);

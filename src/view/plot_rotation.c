@@ -91,6 +91,8 @@ const char *ceduo_plot_rotation(struct ceduo_drawing *d)
     int steps = (int)years->count - 1, step = steps > 0 ? (d->frame.width - 1) / steps : 0;
     if (step > 0)
         d->frame.width = step * steps + 1;
+    if (d->picture->span)
+        *d->picture->span = (struct ceduo_span){d->frame.left, d->frame.width, d->frame.x0, d->frame.x1};
     draw_year_strips(d, a->height - 3 - lights, x, y);
     ceduo_canvas_axis_bottom(d->canvas, &d->frame, _("years"));
     for (int k = 0; k < lights; k++) { /* one mark per year; years in one column show the worst */

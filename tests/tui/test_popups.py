@@ -576,14 +576,14 @@ def test_popup_bar():
 
 
 def test_more_in_popups():
-    """Help and lists longer than their window mark more text below and above."""
+    """Help and lists longer than their window show their position and mark more text below and above."""
     for keys in ("?", "p"):
         first, middle, last = fast(f"key 2\nkey {keys}\ndump\nkey PgDn PgDn\ndump\nkey End\ndump")
-        first.has("more below").lacks("more above")
-        middle.has("more below", "more above")
-        last.has("more above").lacks("more below")
-        fast(f"resize 120 100\nkey 2\nkey {keys}\ndump")[0].lacks("more below", "more above")
-    fast("find stand\nkey 3\nfind shape\nkey Enter\ndump")[0].has("sphere").lacks("more below", "more above")
+        first.has(" ▼ ─┘").lacks("▲")
+        middle.has(" ▲▼ ─┘")
+        last.has(" ▲ ─┘").lacks("▼")
+        fast(f"resize 120 100\nkey 2\nkey {keys}\ndump")[0].lacks("▼ ─┘", "▲ ─┘")
+    fast("find stand\nkey 3\nfind shape\nkey Enter\ndump")[0].has("sphere").lacks("▼ ─┘", "▲ ─┘")
 
 
 def test_share_above_one():

@@ -734,11 +734,11 @@ def test_mouse_like_keys():
         t.keys("2")
         upper, lower = ("Stand of belt 1: upper", "stools per ha            3000"), ("Stand of belt 2: lower", "stools per ha            1000")
         t.sees(*upper)
-        press_mouse(t, 0, 8, 5)
+        press_mouse(t, 0, 8, 6)
         t.sees(*lower)
         press_mouse(t, 64, 10, 10)
         t.sees(*upper)
-        for button, y in ((0, 5), (64, 10), (0, 20), (0, 1)):
+        for button, y in ((0, 6), (64, 10), (0, 20), (0, 1)):
             t.keys("u")
             t.sees("nothing to undo")
             press_mouse(t, button, 8, y)
@@ -757,17 +757,17 @@ def test_mouse():
 
         press(0, 12, 1)
         t.sees("stools per ha")
-        press(0, 30, 9)
+        press(0, 30, 10)
         t.sees("stools per horizontal hectare")
-        press(0, 30, 9)
+        press(0, 30, 10)
         t.sees("Esc cancel")
         t.keys("Escape")
         press(0, 4, 1)
         t.sees("Belts of forest")
         t.sees("from, m: where the belt begins")
-        press(65, 10, 10)
+        press(65, 10, 18)
         t.sees("counted at, m: where passing rocks are counted")
-        press(64, 10, 10)
+        press(64, 10, 18)
         t.sees("from, m: where the belt begins")
 
 

@@ -182,7 +182,7 @@ def test_many_options():
         expect_equal(re.findall(r"^(\w+) .* \d+–\d+$", screen.body, re.M), shown, screen)
         expect_equal(re.findall(r"^(\d+) more options: ] goes on", screen.body, re.M), [str(more)] if more else [], screen)
         expect(re.search(r"depends on +width .*\n.* if known", screen.body), "an input in", screen)
-        expect(re.search(r" v$", screen.body, re.M), "the words go on", screen)
+        expect(re.search(r" \d+/\d+ ▼$", screen.body, re.M), "the words go on", screen)
 
 
 if __name__ == "__main__":
