@@ -24,6 +24,7 @@ extern "C" {
 #include "assess.h"
 #include "blocks.h"
 #include "calibrate.h"
+#include "fence.h"
 #include "find.h"
 #include "hazard.h"
 #include "key.h"

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "fence.h"
 #include "rock.h"
 #include "slope.h"
 #include "stand.h"
@@ -46,6 +47,7 @@ struct ceduo_control {
     /* Years, > 0: accepted return period of rocks with more than `accepted`. NaN or 0: not given; see
      * ceduo_accepted_return(). */
     double accepted_return;
+    struct ceduo_fence fence; /* that stands here */
 };
 
 #define CEDUO_ACCEPTED_RETURN 100 /* years; assumed */
@@ -136,8 +138,15 @@ enum ceduo_quality {
 
 /* Survey qualities for the design values; -1: none requested. */
 struct ceduo_design_values {
-    int survey, blocks; /* enum ceduo_quality */
+    int survey, blocks;  /* enum ceduo_quality */
+    double fence_factor; /* of the energy of a fence, >= 1; NaN or 0: not given */
 };
+
+/* True if design values are requested. */
+static inline bool ceduo_design_is_requested(const struct ceduo_design_values *design)
+{
+    return design->survey >= 0 && design->blocks >= 0;
+}
 
 /* Head of a report, as an office writes it; NULL: not given. */
 struct ceduo_report_head {

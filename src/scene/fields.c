@@ -374,6 +374,16 @@ static const struct field option_fields[] = {
 };
 static const struct object option_object = OBJECT(ceduo_option, option_fields, NULL);
 
+static const struct field fence_fields[] = {
+    NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("fence, kJ"), 35, 10000), MEMBER(ceduo_fence, energy), "kJ", 1000, 0, 1e6,
+        REQUIRED | NO_RUN, NULL, N_("energy that it holds: maximum energy level (MEL) of the tested kit")),
+    NUMBER("height_m", USUAL(N_("fence, m high"), 1, 10), MEMBER(ceduo_fence, height), "m", 0, 100, REQUIRED | ABOVE | NO_RUN,
+           NULL, N_("nominal height, perpendicular to the ground")),
+    NUMBER("life_y", USUAL(N_("life, years"), 5, 100), MEMBER(ceduo_fence, life), "y", 0, 1000, ABOVE | NO_RUN, NULL,
+           N_("years for which it stands, for the chance that a block defeats it; without it 50, an assumption")),
+};
+static const struct object fence_object = OBJECT(ceduo_fence, fence_fields, NULL);
+
 static const struct field control_fields[] = {
     NUMBER("x_m", BRIEF(N_("counted at, m"), N_("at m")), PLACE(ceduo_control, x_given, x), "m", -COORDINATE_MAX,
            COORDINATE_MAX, REQUIRED | FIELD_PLACE, NULL, N_("where passing rocks are counted")),
@@ -388,6 +398,8 @@ static const struct field control_fields[] = {
            "an assumption")),
     NUMBER("measured_speed_m_s", SHOWN(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80), MEMBER(ceduo_control, measured_speed),
            "m/s", 0, 1000, NO_RUN, NULL, N_("speed of a real rock seen there, for comparison")),
+    GROUP_LABELLED("fence", NAMED(N_("net fence")), MEMBER(ceduo_control, fence), NO_RUN | FIELD_CERTAIN,
+                   N_("a net fence that stands there, or is planned"), &fence_object),
 };
 static const struct object control_object = OBJECT(ceduo_control, control_fields, NULL);
 
@@ -424,6 +436,8 @@ static const struct field design_fields[] = {
          N_("how good this survey is"), &ceduo_quality_words),
     WORD("blocks", NAMED(N_("survey of the blocks")), MEMBER(ceduo_design_values, blocks), REQUIRED | NO_RUN, NULL,
          N_("how good this survey is"), &ceduo_quality_words),
+    NUMBER("gamma_e", NAMED(N_("factor of the fence")), MEMBER(ceduo_design_values, fence_factor), "", 1, 10, NO_RUN, NULL,
+           N_("factor by which the energy of a fence is divided for the needed class; without it none is applied")),
 };
 static const struct object design_object = OBJECT(ceduo_design_values, design_fields, NULL);
 

@@ -132,6 +132,7 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     }
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
+    ceduo_page_fence_answer(page, report);
     size_t shared = LINES_SHARED + (r->scene->blocks_count > 0 ? LINES_BLOCKS : 0);
     bool complete = add_notes(page, report, n > 1 ? shared + LINES_OPTION * n : LINES);
     for (size_t i = 0; report->years && !nothing && i < n; i++) { /* requested with --years */

@@ -19,14 +19,19 @@ static bool allocate_simulated(struct ceduo_simulated *f, size_t controls, bool 
     return false;
 }
 
-enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *f)
+enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, const struct ceduo_scene *scene,
+                                       const struct ceduo_simulated *bare, struct ceduo_simulated *f)
 {
+    size_t controls = scene->controls_count;
     if (!allocate_simulated(f, controls, ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT)))
         return CEDUO_NO_MEMORY;
     f->rocks = ceduo_run_rocks(run);
     enum ceduo_status status = ceduo_run_ends(run, &f->ends);
-    for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
+    for (size_t c = 0; c < controls && status == CEDUO_OK; c++) {
         status = ceduo_run_hazard(run, c, &f->arrivals[c], f->curves ? &f->curves[c] : NULL);
+        if (status == CEDUO_OK)
+            status = ceduo_run_fence(run, scene, c, bare ? &bare->arrivals[c] : NULL, &f->arrivals[c].fence);
+    }
     if (status != CEDUO_OK)
         ceduo_simulated_free(f);
     return status;
@@ -177,12 +182,13 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
     *result = NULL;
     if (!r)
         return CEDUO_NO_MEMORY;
-    enum ceduo_status status = bare ? ceduo_simulated_read(bare, controls, &r->bare) : CEDUO_OK;
+    enum ceduo_status status = bare ? ceduo_simulated_read(bare, scene, NULL, &r->bare) : CEDUO_OK;
     if (!bare && !allocate_simulated(&r->bare, controls, false))
         status = CEDUO_NO_MEMORY;
     for (size_t c = 0; !bare && status == CEDUO_OK && c < controls; c++) { /* missing run: NaN */
         r->bare.arrivals[c].energy = ceduo_distribution_none();
         r->bare.arrivals[c].hazard = ceduo_hazard_none();
+        r->bare.arrivals[c].fence = ceduo_fence_none();
     }
     for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
         const struct ceduo_run *run = ceduo_pool_find(pool, &scene->options[i]);
@@ -190,7 +196,7 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
             r->options[i].differences[c] = ceduo_run_difference(run, baseline, c);
         if (run) /* an option without stems has the run without forest */
             status = run == bare ? copy_simulated(&r->bare, &r->options[i].wooded)
-                                 : ceduo_simulated_read(run, controls, &r->options[i].wooded);
+                                 : ceduo_simulated_read(run, scene, &r->bare, &r->options[i].wooded);
     }
     struct ceduo_scene alt = {0}; /* with the other energy law */
     if (r->wooded && status == CEDUO_OK && !ceduo_alternative_scene(scene, &alt))
