@@ -41,7 +41,7 @@ int ceduo_fence_class(double energy);
 
 /* Shares of the released that would defeat a fence, by its height and class. */
 struct ceduo_fence_grid {
-    double defeated[CEDUO_FENCE_HEIGHTS][CEDUO_FENCE_CLASSES];
+    struct ceduo_estimate defeated[CEDUO_FENCE_HEIGHTS][CEDUO_FENCE_CLASSES];
     double energy[CEDUO_FENCE_HEIGHTS]; /* J: largest energy of a rock that does not pass above; 0: none */
 };
 
@@ -76,9 +76,8 @@ struct ceduo_fence_arrivals {
 /* Return arrivals without values. */
 struct ceduo_fence_arrivals ceduo_fence_none(void);
 
-/* Choose the smallest class for each height at which at most `limit` of the released defeat the fence. `rocks`: effective
- * number of released rocks, for the sampling error. */
-void ceduo_fence_choose(const struct ceduo_fence_grid *grid, double limit, double rocks,
+/* Choose the smallest class for each height at which at most `limit` of the released defeat the fence. */
+void ceduo_fence_choose(const struct ceduo_fence_grid *grid, double limit,
                         struct ceduo_fence_choice choices[CEDUO_FENCE_HEIGHTS]);
 
 /* Return the choice of the smallest class, among equal classes the lowest; NULL if no class of any height is enough. */

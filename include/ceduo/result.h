@@ -11,7 +11,8 @@ struct ceduo_simulated {
     uint64_t rocks; /* 0: no result */
     size_t controls;
     struct ceduo_arrivals *arrivals;
-    struct ceduo_hazard_curve *curves; /* `curve` of the arrivals points here; NULL without blocks */
+    struct ceduo_hazard_curve *curves;   /* `curve` of the arrivals points here; NULL without blocks */
+    struct ceduo_fence_arrivals *fences; /* likewise `fence`; NULL without fences and design values */
     struct ceduo_ends ends;
 };
 

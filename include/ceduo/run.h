@@ -67,10 +67,10 @@ struct ceduo_arrivals {
     double limit;                 /* of exceed: ceduo_exceed_limit() */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
     struct ceduo_estimate energy_per_released;                    /* J; no interval */
-    struct ceduo_estimate contacts;     /* with stems, of rocks that arrive; no interval; NaN: without forest */
-    struct ceduo_hazard hazard;         /* if the scene has blocks */
-    struct ceduo_fence_arrivals fence;  /* ceduo_fence_none() unless set by ceduo_run_fence() */
-    struct ceduo_topography topography; /* of the control */
+    struct ceduo_estimate contacts;           /* with stems, of rocks that arrive; no interval; NaN: without forest */
+    struct ceduo_hazard hazard;               /* if the scene has blocks */
+    const struct ceduo_fence_arrivals *fence; /* owned by struct ceduo_simulated; NULL: neither a fence nor design values */
+    struct ceduo_topography topography;       /* of the control */
 };
 
 /* Return the maximum share of the released rocks that may exceed the accepted energy: CEDUO_EXCEED_MAX. With blocks it is the

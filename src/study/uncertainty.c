@@ -423,7 +423,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
         struct ceduo_uncertainty_figure *f = &answer->figures[i * CEDUO_UNCERTAINTY_KINDS];
         set_sampling(&f[CEDUO_UNCERTAINTY_REACH], a->reach);
         set_sampling(&f[CEDUO_UNCERTAINTY_EXCEED], a->exceed);
-        set_sampling(&f[CEDUO_UNCERTAINTY_DEFEATED], a->fence.defeated);
+        set_sampling(&f[CEDUO_UNCERTAINTY_DEFEATED], a->fence ? a->fence->defeated : CEDUO_NO_ESTIMATE);
         struct ceduo_estimate energy = a->energy_per_released;
         double half = ceduo_half_width(energy.se, a->released);
         set_sampling(&f[CEDUO_UNCERTAINTY_ENERGY],

@@ -112,7 +112,7 @@ struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind what, const st
 
 const struct ceduo_fence_arrivals *ceduo_fence_find(const struct ceduo_arrivals *a)
 {
-    return a && !isnan(a->fence.defeated.mean) ? &a->fence : NULL;
+    return a && a->fence && !isnan(a->fence->defeated.mean) ? a->fence : NULL;
 }
 
 struct ceduo_measure ceduo_measure_fence(enum ceduo_fence_share what, const struct ceduo_arrivals *a)
@@ -134,12 +134,6 @@ struct ceduo_measure ceduo_measure_fence(enum ceduo_fence_share what, const stru
     return m;
 }
 
-static struct ceduo_fence_design design(const struct ceduo_fence_load *load, const struct ceduo_fence_factors *factors)
-{
-    const struct ceduo_fence_load none = {NAN, NAN, NAN, NAN};
-    return ceduo_fence_design(load ? load : &none, factors);
-}
-
 /* Factors in UNI 11211-4: 1.02 for a good survey or a fitted model, otherwise 1.10. */
 #define FACTOR(good) ((good) ? 1.02 : 1.10)
 
@@ -154,11 +148,16 @@ bool ceduo_designs_compute(const struct ceduo_report *report, size_t option, siz
                                                .model = FACTOR(to->calibrated),
                                                .blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD),
                                                .energy = d->fence_factor > 0 ? d->fence_factor : NAN};
-    to->of[CEDUO_DESIGN_BARE] = design(&r->bare.arrivals[control].fence.arriving, &to->factors);
-    to->of[CEDUO_DESIGN_ARRIVING] = design(wooded ? &wooded->fence.arriving : NULL, &to->factors);
-    to->of[CEDUO_DESIGN_SYSTEM] = design(wooded ? &wooded->fence.system : NULL, &to->factors);
-    to->of[CEDUO_DESIGN_WORST_ARRIVING] = design(years ? &years->arriving : NULL, &to->factors);
-    to->of[CEDUO_DESIGN_WORST_SYSTEM] = design(years ? &years->system : NULL, &to->factors);
+    const struct ceduo_fence_arrivals none = ceduo_fence_none(), *bare = r->bare.arrivals[control].fence,
+                                      *through = wooded && wooded->fence ? wooded->fence : &none;
+    const struct ceduo_fence_load *const loads[CEDUO_DESIGN_KINDS] = {
+        [CEDUO_DESIGN_BARE] = bare ? &bare->arriving : &none.arriving,
+        [CEDUO_DESIGN_ARRIVING] = &through->arriving,
+        [CEDUO_DESIGN_SYSTEM] = &through->system,
+        [CEDUO_DESIGN_WORST_ARRIVING] = years ? &years->arriving : &none.arriving,
+        [CEDUO_DESIGN_WORST_SYSTEM] = years ? &years->system : &none.system};
+    for (size_t i = 0; i < CEDUO_DESIGN_KINDS; i++)
+        to->of[i] = ceduo_fence_design(loads[i], &to->factors);
     return ceduo_design_is_requested(d);
 }
 

@@ -24,7 +24,7 @@ static bool is_equal(const struct ceduo_fence_choice *a, const struct ceduo_fenc
     return a == b || (a && b && a->height == b->height && a->class_index == b->class_index);
 }
 
-/* Append "over the years 5 m of class 1 (250 kJ), because of years 1–6". */
+/* Append "; over the years 5 m of class 1 (250 kJ), because of years 1–6". */
 static void append_years(struct text *text, const struct ceduo_fence_years *y, const struct ceduo_fence_choice *today)
 {
     const struct ceduo_fence_choice *all = ceduo_fence_smallest(y->enough);
@@ -43,19 +43,24 @@ static void append_years(struct text *text, const struct ceduo_fence_years *y, c
         ceduo_text_format(text, _(", because of %zu of %zu years"), y->exceptions, y->years);
 }
 
-static void append_enough(struct text *text, const struct ceduo_fence_arrivals *bare, const struct ceduo_fence_arrivals *wooded,
-                          const struct ceduo_fence_years *years)
+/* Append "Enough without forest: 5 m of class 2 (500 kJ); with forest: today 4 m of class 0 (100 kJ); over the years …". */
+static void append_enough(struct text *text, const struct ceduo_subject *s, const struct ceduo_fence_years *years)
 {
-    const struct ceduo_fence_choice *without = ceduo_fence_smallest(bare->enough);
+    const struct ceduo_fence_arrivals *wooded = ceduo_fence_find(s->wooded);
+    const struct ceduo_fence_choice *bare = ceduo_fence_smallest(ceduo_fence_find(s->bare)->enough);
+    bool several = s->report->result->scene->options_count > 1, undecided = bare && !bare->decided;
     LOCAL_TEXT(choice);
-    append_choice(&choice, without);
+    append_choice(&choice, bare);
     ceduo_text_format(text, _("Enough without forest: %s"), choice.bytes);
-    bool undecided = without && !without->decided;
     if (wooded) {
         const struct ceduo_fence_choice *today = ceduo_fence_smallest(wooded->enough);
         ceduo_text_cut(&choice, 0);
+        ceduo_text_append(&choice, years ? _("today ") : "");
         append_choice(&choice, today);
-        ceduo_text_format(text, years ? _("; with forest: today %s") : _("; with forest: %s"), choice.bytes);
+        if (several)
+            ceduo_text_format(text, _("; with '%s': %s"), s->report->result->scene->options[s->option].name, choice.bytes);
+        else
+            ceduo_text_format(text, _("; with forest: %s"), choice.bytes);
         undecided |= today && !today->decided;
         if (years)
             append_years(text, years, today);
@@ -96,8 +101,7 @@ void ceduo_page_fence_answer(struct ceduo_page *page, const struct ceduo_report 
     size_t option = ceduo_result_best(r, report->verdict);
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         const struct ceduo_subject s = ceduo_subject_find(report, option, k);
-        const struct ceduo_fence_arrivals *bare = ceduo_fence_find(s.bare);
-        if (!bare || ceduo_rocks_reached(s.bare) == 0)
+        if (!ceduo_fence_find(s.bare) || ceduo_rocks_reached(s.bare) == 0)
             continue;
         const struct ceduo_fence_years *years = ceduo_report_fence_years(report, option, k);
         struct text *text = ceduo_page_item(page, CEDUO_PAGE_POINT, _("FENCE"));
@@ -105,9 +109,7 @@ void ceduo_page_fence_answer(struct ceduo_page *page, const struct ceduo_report 
             ceduo_words_place(text, s.place);
             ceduo_text_append(text, ": ");
         }
-        if (r->scene->options_count > 1 && s.wooded)
-            ceduo_text_format(text, _("With '%s': "), r->scene->options[option].name);
-        append_enough(text, bare, ceduo_fence_find(s.wooded), years);
+        append_enough(text, &s, years);
         append_defeated(text, &s, years);
     }
 }
@@ -168,10 +170,10 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
                                                        {NP_("head", "class"), -6, 1, COL_SHRINK},
                                                        {NULL, -6, 1, COL_SHRINK}};
     static const char *const names[CEDUO_DESIGN_KINDS] = {[CEDUO_DESIGN_BARE] = N_("without forest"),
-                                                          [CEDUO_DESIGN_ARRIVING] = N_("with forest: rocks that arrive"),
-                                                          [CEDUO_DESIGN_SYSTEM] = N_("with forest: as one system"),
-                                                          [CEDUO_DESIGN_WORST_ARRIVING] = N_("worst year: rocks that arrive"),
-                                                          [CEDUO_DESIGN_WORST_SYSTEM] = N_("worst year: as one system")};
+                                                          [CEDUO_DESIGN_ARRIVING] = N_("with forest: arrivals"),
+                                                          [CEDUO_DESIGN_SYSTEM] = N_("with forest: one system"),
+                                                          [CEDUO_DESIGN_WORST_ARRIVING] = N_("worst year: arrivals"),
+                                                          [CEDUO_DESIGN_WORST_SYSTEM] = N_("worst year: one system")};
     const struct ceduo_subject s = ceduo_subject_find(report, option, control);
     struct ceduo_designs d;
     if (!ceduo_designs_compute(report, option, control, s.wooded, &d) || ceduo_rocks_reached(s.bare) == 0)
@@ -188,9 +190,9 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
         if (isnan(v->energy))
             continue;
         ceduo_page_cell_format(page, "%s", _(names[i]));
-        ceduo_page_number(page, v->speed, 3);
-        ceduo_page_number(page, v->energy * J_TO_KJ, 3);
-        ceduo_page_number(page, v->height, 3);
+        ceduo_page_cell_format(page, "%s", SIG(v->speed, 3));
+        ceduo_page_cell_format(page, "%s", SIG(v->energy * J_TO_KJ, 3));
+        ceduo_page_cell_format(page, "%s", SIG(v->height, 3));
         add_class(page, v, v->class_index);
         if (isnan(d.factors.energy))
             ceduo_page_cell_format(page, "%s", "");

@@ -191,7 +191,7 @@ def without_default():
     return [name for name in structs if not re.search(rf"^struct {name} {name}_default\(", text, re.M)]
 
 
-READS = re.compile(r"(->|\.)((released|reached|exceeded|unfinished|missed|translation|energy_per_released|fence\.(over|enough|defeated)|topography|hazard)\b|"
+READS = re.compile(r"(->|\.)((released|reached|exceeded|unfinished|missed|translation|energy_per_released|fence->(over|enough|defeated)|topography|hazard)\b|"
                    r"(energy|speed)\.(mean|se|p\d+)|(reach|exceed)\.(lo|hi))")
 
 

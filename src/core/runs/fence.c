@@ -28,23 +28,22 @@ struct ceduo_fence_arrivals ceduo_fence_none(void)
                                          .system = none};
 }
 
-void ceduo_fence_choose(const struct ceduo_fence_grid *grid, double limit, double rocks,
+void ceduo_fence_choose(const struct ceduo_fence_grid *grid, double limit,
                         struct ceduo_fence_choice choices[CEDUO_FENCE_HEIGHTS])
 {
     for (unsigned h = 0; h < CEDUO_FENCE_HEIGHTS; h++) {
-        const double *defeated = grid->defeated[h];
+        const struct ceduo_estimate *defeated = grid->defeated[h];
         int i = 0, last = CEDUO_FENCE_CLASSES - 1;
-        while (i <= last && !(defeated[i] <= limit))
+        while (i <= last && !(defeated[i].mean <= limit))
             i++;
-        bool higher = i <= last && ceduo_wilson(defeated[i], defeated[i], rocks).hi > limit;
-        bool lower = i > 0 && ceduo_wilson(defeated[i - 1], defeated[i - 1], rocks).lo <= limit;
+        bool undecided = (i <= last && defeated[i].hi > limit) || (i > 0 && defeated[i - 1].lo <= limit);
         choices[h] = (struct ceduo_fence_choice){.height = CEDUO_FENCE_LOWEST + h,
                                                  .class_index = i,
                                                  .energy = i < last    ? ceduo_fence_class_energy[i]
                                                            : i == last ? grid->energy[h]
                                                                        : NAN,
-                                                 .defeated = defeated[i <= last ? i : last],
-                                                 .decided = !higher && !lower};
+                                                 .defeated = defeated[i <= last ? i : last].mean,
+                                                 .decided = !undecided};
     }
 }
 

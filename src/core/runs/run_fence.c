@@ -79,20 +79,11 @@ static struct ceduo_estimate estimate_share(const struct ceduo_run *run, const s
     return run->weighted ? ceduo_weighted_share(totals, sum, -1) : ceduo_run_share((uint64_t)sum->t, unfinished, run->rocks);
 }
 
-/* Add up the cells of a grid, so that each has the weight of all rocks that defeat its fence. */
-static void accumulate(double above[CEDUO_FENCE_HEIGHTS + 1][CEDUO_FENCE_CLASSES], double total, struct ceduo_fence_grid *grid)
+static void add_sum(struct weighted_sum *to, const struct weighted_sum *sum)
 {
-    double over = 0; /* weight above the height */
-    for (size_t h = CEDUO_FENCE_HEIGHTS; h > 0; h--) {
-        for (size_t i = 0; i < CEDUO_FENCE_CLASSES; i++)
-            over += above[h][i];
-        double through = 0;
-        for (size_t i = CEDUO_FENCE_CLASSES; i-- > 0;) {
-            grid->defeated[h - 1][i] = (over + through) / total;
-            for (size_t k = 0; k < h; k++)
-                through += above[k][i];
-        }
-    }
+    to->t += sum->t;
+    to->tt += sum->tt;
+    to->tw += sum->tw;
 }
 
 static void read_shares(const struct ceduo_run *run, const struct ceduo_scene *scene, size_t control, const struct passing *p,
@@ -104,18 +95,18 @@ static void read_shares(const struct ceduo_run *run, const struct ceduo_scene *s
     if (run->weighted)
         totals = ceduo_run_weight_totals(run, s.end_weights[CEDUO_UNFINISHED]);
     struct weighted_sum over = {0}, through = {0}, both = {0}, defeated = {0}, worn = {0};
-    double cells[CEDUO_FENCE_HEIGHTS + 1][CEDUO_FENCE_CLASSES] = {{0}}, held[CEDUO_FENCE_CLASSES] = {0}, above = 0;
+    struct weighted_sum cells[CEDUO_FENCE_HEIGHTS + 1][CEDUO_FENCE_CLASSES] = {{{0}}}; /* by lowest height and needed class */
+    double held[CEDUO_FENCE_CLASSES] = {0}, above = 0;                                 /* by the height of the fence */
     for (size_t r = 0; r < n; r++) {
         bool is_over = p[r].top > fence->height, is_through = p[r].energy > fence->energy;
         int needed = ceduo_fence_class(p[r].energy);
-        double lowest = ceil(p[r].top) - CEDUO_FENCE_LOWEST;
-        size_t h = (size_t)fmin(CEDUO_FENCE_HEIGHTS, fmax(0, lowest));
+        size_t h = (size_t)fmin(CEDUO_FENCE_HEIGHTS, fmax(0, ceil(p[r].top) - CEDUO_FENCE_LOWEST));
         weighted_sum_add(&over, p[r].weight, is_over);
         weighted_sum_add(&through, p[r].weight, is_through);
         weighted_sum_add(&both, p[r].weight, is_over && is_through);
         weighted_sum_add(&defeated, p[r].weight, is_over || is_through);
         weighted_sum_add(&worn, p[r].weight, !is_over && !is_through && p[r].energy > SERVICE * fence->energy);
-        cells[h][needed] += p[r].weight;
+        weighted_sum_add(&cells[h][needed], p[r].weight, 1);
         *(is_over ? &above : &held[needed]) += p[r].weight;
         for (; h < CEDUO_FENCE_HEIGHTS; h++)
             f->grid.energy[h] = fmax(f->grid.energy[h], p[r].energy);
@@ -124,11 +115,20 @@ static void read_shares(const struct ceduo_run *run, const struct ceduo_scene *s
     struct ceduo_estimate *const to[] = {&f->over, &f->through, &f->both, &f->defeated, &f->worn};
     for (size_t i = 0; i < 5; i++)
         *to[i] = estimate_share(run, &totals, s.end_counts[CEDUO_UNFINISHED], sums[i]);
-    accumulate(cells, totals.w, &f->grid);
+    struct weighted_sum higher = {0};
+    for (size_t h = CEDUO_FENCE_HEIGHTS; h-- > 0;) { /* rocks above the height, and those below that need a larger class */
+        for (size_t i = 0; i < CEDUO_FENCE_CLASSES; i++)
+            add_sum(&higher, &cells[h + 1][i]);
+        struct weighted_sum all = higher;
+        for (size_t i = CEDUO_FENCE_CLASSES; i-- > 0;) {
+            f->grid.defeated[h][i] = estimate_share(run, &totals, s.end_counts[CEDUO_UNFINISHED], &all);
+            for (size_t k = 0; k <= h; k++)
+                add_sum(&all, &cells[k][i]);
+        }
+    }
     for (size_t i = CEDUO_FENCE_CLASSES; i-- > 0; above += held[i])
         f->by_class[i] = above / totals.w;
-    ceduo_fence_choose(&f->grid, ceduo_exceed_limit(scene, &scene->controls[control]), totals.w * totals.w / totals.ww,
-                       f->enough);
+    ceduo_fence_choose(&f->grid, ceduo_exceed_limit(scene, &scene->controls[control]), f->enough);
     if (!run->weighted)
         return;
     f->per_year = totals.per_year * f->defeated.mean;

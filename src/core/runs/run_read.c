@@ -143,7 +143,6 @@ enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, 
                                  .limit = ceduo_exceed_limit(&run->prepared.scene, &run->prepared.scene.controls[control]),
                                  .contacts = CEDUO_NO_ESTIMATE,
                                  .hazard = ceduo_hazard_none(),
-                                 .fence = ceduo_fence_none(),
                                  .topography = ceduo_prepared_topography(&run->prepared, control)};
     memcpy(a->ended, s.end_counts, sizeof a->ended);
     if (run->weighted)

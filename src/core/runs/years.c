@@ -399,38 +399,35 @@ static void widen_load(struct ceduo_fence_load *load, const struct ceduo_fence_l
 
 struct ceduo_fence_years ceduo_years_fence(const struct ceduo_years *years, size_t control, const struct ceduo_arrivals *today)
 {
-    const struct ceduo_fence_arrivals none = ceduo_fence_none();
-    const struct ceduo_fence_choice *choice = ceduo_fence_smallest(today->fence.enough);
-    struct ceduo_fence_grid all = today->fence.grid;
+    const struct ceduo_fence_arrivals none = ceduo_fence_none(), *now = today->fence ? today->fence : &none;
+    const struct ceduo_fence_choice *choice = ceduo_fence_smallest(now->enough);
+    struct ceduo_fence_grid all = now->grid;
     struct ceduo_fence_years s = {.worst = CEDUO_NO_ESTIMATE, .arriving = none.arriving, .system = none.system};
-    double per_year = 0, rocks = 0;
+    double per_year = 0;
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *y = &years->years[i];
-        if (y->wooded.rocks == 0)
+        if (y->wooded.rocks == 0 || !y->wooded.fences)
             continue;
-        const struct ceduo_arrivals *a = &y->wooded.arrivals[control];
-        const struct ceduo_fence_arrivals *f = &a->fence;
+        const struct ceduo_fence_arrivals *f = &y->wooded.fences[control];
+        s.years++;
         widen_load(&s.arriving, &f->arriving);
         widen_load(&s.system, &f->system);
-        s.years++;
-        if (isnan(f->defeated.mean))
-            continue;
-        rocks = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;
         s.mean.mean += f->defeated.mean;
         s.mean.lo += f->defeated.lo;
         s.mean.hi += f->defeated.hi;
         per_year += f->per_year;
-        s.failing += f->defeated.mean > a->limit;
+        s.failing += f->defeated.mean > y->wooded.arrivals[control].limit;
         if (!(f->defeated.mean <= s.worst.mean)) {
             s.worst = f->defeated;
             s.worst_year = y->year;
         }
         for (size_t h = 0; h < CEDUO_FENCE_HEIGHTS; h++) {
             for (size_t k = 0; k < CEDUO_FENCE_CLASSES; k++)
-                all.defeated[h][k] = fmax(all.defeated[h][k], f->grid.defeated[h][k]);
+                if (f->grid.defeated[h][k].mean > all.defeated[h][k].mean)
+                    all.defeated[h][k] = f->grid.defeated[h][k];
             all.energy[h] = fmax(all.energy[h], f->grid.energy[h]);
         }
-        if (choice && f->enough[choice - today->fence.enough].class_index > choice->class_index) {
+        if (choice && f->enough[choice - now->enough].class_index > choice->class_index) {
             s.first_exception = s.exceptions++ == 0 ? y->year : s.first_exception;
             s.last_exception = y->year;
         }
@@ -439,7 +436,7 @@ struct ceduo_fence_years ceduo_years_fence(const struct ceduo_years *years, size
     s.mean = (struct ceduo_estimate){s.mean.mean / n, NAN, s.mean.lo / n, s.mean.hi / n}; /* NaN without years */
     s.per_year = per_year / n;
     s.in_life = -expm1(-s.per_year * ceduo_fence_life(&years->scene.controls[control].fence));
-    ceduo_fence_choose(&all, ceduo_exceed_limit(&years->scene, &years->scene.controls[control]), rocks, s.enough);
+    ceduo_fence_choose(&all, ceduo_exceed_limit(&years->scene, &years->scene.controls[control]), s.enough);
     return s;
 }
 
