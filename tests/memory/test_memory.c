@@ -214,7 +214,7 @@ static bool answer_block_years(void)
     if (status == CEDUO_OK)
         status = ceduo_pool_simulate(pool, NULL, 40, &run);
     if (status == CEDUO_OK)
-        status = ceduo_simulated_read(run, 1, &bare);
+        status = ceduo_simulated_read(run, &site.scene, NULL, &bare);
     for (uint64_t rocks = 30; rocks <= 40 && status == CEDUO_OK; rocks += 10)
         status = ceduo_years_simulate(years, pool, &bare, rocks);
     if (status == CEDUO_OK) {
