@@ -6,27 +6,7 @@
 
 #include "statistics.h"
 
-/* A net fence at a control. It changes no trajectory: the passing rocks are compared with it. A rock defeats the fence if its
- * top passes above the fence, or if its energy of translation is above the energy of the fence; an equal value is held. */
-struct ceduo_fence {
-    double height; /* m, nominal, perpendicular to the ground; NaN or 0: no fence */
-    double energy; /* J that it holds (maximum energy level, MEL) */
-    double life;   /* years; NaN or 0: CEDUO_FENCE_LIFE */
-};
-
-#define CEDUO_FENCE_LIFE 50 /* years; assumed */
-
-/* True if there is a fence. */
-static inline bool ceduo_fence_stands(const struct ceduo_fence *fence)
-{
-    return fence->height > 0;
-}
-
-/* Return its life, years. */
-static inline double ceduo_fence_life(const struct ceduo_fence *fence)
-{
-    return fence->life > 0 ? fence->life : CEDUO_FENCE_LIFE;
-}
+/* Rocks at a net fence (struct ceduo_fence): the shares that defeat it, the fence that would be enough, and design values. */
 
 /* Classes of ETAG 027 by the energy (MEL) of the tested kit, J. The last has no upper limit: infinite. */
 #define CEDUO_FENCE_CLASSES 9
@@ -62,14 +42,14 @@ struct ceduo_fence_load {
 
 /* Rocks at a fence. Shares are of the released. */
 struct ceduo_fence_arrivals {
-    struct ceduo_estimate over, through, both, defeated; /* NaN: no fence, and all members but the loads are invalid */
+    struct ceduo_estimate above, through, both, defeated; /* NaN: no fence, and all members but the loads are invalid */
     struct ceduo_estimate worn;           /* held with more than a third of its energy: the service energy level (SEL) */
     double by_class[CEDUO_FENCE_CLASSES]; /* defeated fences of this height */
     struct ceduo_fence_grid grid;
     struct ceduo_fence_choice enough[CEDUO_FENCE_HEIGHTS];
     double per_year, in_life; /* rocks that defeat the fence: per year; probability in its life; NaN: no blocks */
-    /* Loads: of the rocks that arrive, and of those that arrive without forest, where a rock that the forest stops counts
-     * as 0. NaN: neither fence nor design values are requested, or no rock arrives. */
+    /* `arriving`: rocks that arrive. `system`: rocks that arrive without forest; a rock that the forest stops counts as 0. NaN:
+     * neither fence nor design values are requested, or no rock arrives. */
     struct ceduo_fence_load arriving, system;
 };
 

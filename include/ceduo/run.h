@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "fence.h"
 #include "flag.h"
 #include "hazard.h"
 #include "scene.h"

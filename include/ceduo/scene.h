@@ -5,7 +5,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "fence.h"
 #include "rock.h"
 #include "slope.h"
 #include "stand.h"
@@ -35,6 +34,28 @@ struct ceduo_release {
     struct ceduo_number spin;   /* rad/s, positive if it rolls forward in +x */
     bool x_assumed;             /* x is not given: the first vertex */
 };
+
+/* A net fence at a control. It changes no trajectory: the passing rocks are compared with it. A rock defeats the fence if its
+ * top passes above the fence, or if its energy of translation is above the energy of the fence; an equal value is held. */
+struct ceduo_fence {
+    double height; /* m, nominal, perpendicular to the ground; NaN or 0: no fence */
+    double energy; /* J that it holds (maximum energy level, MEL) */
+    double life;   /* years; NaN or 0: CEDUO_FENCE_LIFE */
+};
+
+#define CEDUO_FENCE_LIFE 50 /* years; assumed */
+
+/* True if there is a fence. */
+static inline bool ceduo_fence_stands(const struct ceduo_fence *fence)
+{
+    return fence->height > 0;
+}
+
+/* Return its life, years. */
+static inline double ceduo_fence_life(const struct ceduo_fence *fence)
+{
+    return fence->life > 0 ? fence->life : CEDUO_FENCE_LIFE;
+}
 
 /* A place at which passing rocks are counted. */
 struct ceduo_control {

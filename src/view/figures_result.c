@@ -393,7 +393,7 @@ static const struct ceduo_figure fence_choice[] = {
     END};
 
 static const struct ceduo_figure fence_arrivals[] = {
-    SHARE("over", "share of all released whose top passes above the fence", over),
+    SHARE("over", "share of all released whose top passes above the fence", above),
     SHARE("through", "share with more energy of translation than the fence holds", through),
     SHARE("both", "share that does both", both),
     SHARE("defeated", "share that does either: over + through - both", defeated),

@@ -119,14 +119,14 @@ struct ceduo_measure ceduo_measure_fence(enum ceduo_fence_share what, const stru
 {
     static const struct {
         const char *name, *phrase;
-    } names[CEDUO_FENCE_SHARES] = {[CEDUO_FENCE_OVER] = {N_("over the fence"), N_("pass above the fence")},
+    } names[CEDUO_FENCE_SHARES] = {[CEDUO_FENCE_ABOVE] = {N_("over the fence"), N_("pass above the fence")},
                                    [CEDUO_FENCE_THROUGH] = {N_("through it"), N_("have more energy than it holds")},
                                    [CEDUO_FENCE_BOTH] = {N_("both"), N_("both above and too much energy")},
                                    [CEDUO_FENCE_DEFEATED] = {N_("fence beaten"), N_("defeat the fence")},
                                    [CEDUO_FENCE_WORN] = {N_("wear it"), N_("held, with over a third of its energy")}};
     const struct ceduo_fence_arrivals *f = ceduo_fence_find(a);
     const struct ceduo_estimate none = CEDUO_NO_ESTIMATE;
-    const struct ceduo_estimate *const shares[] = {&f->over, &f->through, &f->both, &f->defeated, &f->worn};
+    const struct ceduo_estimate *const shares[] = {&f->above, &f->through, &f->both, &f->defeated, &f->worn};
     const struct ceduo_estimate *share = f ? shares[what] : &none;
     struct ceduo_measure m = make_share(ceduo_share_of(a, *share), share->lo, share->hi);
     m.names[CEDUO_HEAD] = m.names[CEDUO_SHORT_HEAD] = m.names[CEDUO_ROW] = names[what].name;

@@ -92,7 +92,7 @@ static void append_defeated(struct text *text, const struct ceduo_subject *s, co
     const struct ceduo_uncertainty_report *u = s->report->uncertainty;
     if (f && u && u->answer && s->control == s->report->result->last_control &&
         ceduo_uncertainty_causes(&causes, u, s->option, CEDUO_UNCERTAINTY_DEFEATED))
-        ceduo_text_append_joined(text, " ", _("Whether it is enough depends on %s."), ceduo_text_string(&causes));
+        ceduo_text_append_joined(text, " ", _("It depends on %s if it is enough."), ceduo_text_string(&causes));
 }
 
 void ceduo_page_fence_answer(struct ceduo_page *page, const struct ceduo_report *report)

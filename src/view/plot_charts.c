@@ -186,7 +186,7 @@ const char *ceduo_plot_fence(struct ceduo_drawing *d)
     static const struct chart_size size = {.axis = 6, .below = 1, .legend = 30, .width = 24, .height = 6};
     bool stands = d->control && ceduo_fence_stands(&d->control->fence);
     size_t items = d->wooded ? d->scene->options_count + 1 : 1;
-    double most = 0;
+    double max = 0;
     if (!stands || !ceduo_fence_find(d->bare_arrivals))
         return stands ? _("not computed yet") : _("the control has no 'fence'");
     if (!set_chart_frame(d, &size, items))
@@ -194,10 +194,10 @@ const char *ceduo_plot_fence(struct ceduo_drawing *d)
     double limit = 1000 * ceduo_exceed_limit(d->scene, d->control);
     for (size_t i = 0; i < items; i++) {
         const struct ceduo_fence_arrivals *f = ceduo_fence_find(find_arrivals(d, i));
-        most = fmax(most, f ? 1000 * f->by_class[0] : 0);
+        max = fmax(max, f ? 1000 * f->by_class[0] : 0);
     }
     d->frame.x1 = CEDUO_FENCE_CLASSES - 1;
-    d->frame.y1 = 1.1 * fmax(most, fmin(limit, 1000));
+    d->frame.y1 = 1.1 * fmax(max, fmin(limit, 1000));
     ceduo_plot_print(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS,
                      _("of 1000 that defeat a fence of %s m, by its class"), LOCALIZED(d->control->fence.height));
     ceduo_plot_axes(d, 0, 0, _("class"));

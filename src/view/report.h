@@ -150,7 +150,7 @@ struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind what, const st
 
 /* Rocks per 1000 released at the fence of a control: above it, through it, both, either, or held with much energy. */
 enum ceduo_fence_share {
-    CEDUO_FENCE_OVER,
+    CEDUO_FENCE_ABOVE,
     CEDUO_FENCE_THROUGH,
     CEDUO_FENCE_BOTH,
     CEDUO_FENCE_DEFEATED,

@@ -20,7 +20,7 @@ KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene
 CORE = {"stand": "", "wood": "stand", "walk": "stand wood", "runs": "stand wood walk"}
 # The room of each public header: a header depends on what its room may use.
 HEADERS = {"base": "flag", "scene": "rock scene slope stand status",
-           "core": "adc assess blocks hazard key other pool question record result rotation run statistics trajectory variants years yield",
+           "core": "adc assess blocks fence hazard key other pool question record result rotation run statistics trajectory variants years yield",
            "study": "calibrate uncertainty find naslund observe surface survey", "io": "ceduo read"}
 SCIENCE = ("scene", "core")  # uses nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
@@ -191,7 +191,7 @@ def without_default():
     return [name for name in structs if not re.search(rf"^struct {name} {name}_default\(", text, re.M)]
 
 
-READS = re.compile(r"(->|\.)((released|reached|exceeded|unfinished|missed|translation|energy_per_released|fence->(over|enough|defeated)|topography|hazard)\b|"
+READS = re.compile(r"(->|\.)((released|reached|exceeded|unfinished|missed|translation|energy_per_released|fence->(above|enough|defeated)|topography|hazard)\b|"
                    r"(energy|speed)\.(mean|se|p\d+)|(reach|exceed)\.(lo|hi))")
 
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fences: closed forms of the shares that defeat one, of percentiles and rates, and the choice of class and height. */
-#include "ceduo/fence.h"
+#include "ceduo/ceduo.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -60,16 +60,16 @@ TEST(shares_over_and_through_have_closed_forms)
     throw(0);
     LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, ROCKS, 1);
     for (size_t i = 0; i < LENGTH(heights); i++)
-        expect_share(read_fence(run, 100e3, heights[i].height, NULL).over, heights[i].over);
+        expect_share(read_fence(run, 100e3, heights[i].height, NULL).above, heights[i].over);
     for (size_t i = 0; i < LENGTH(energies); i++)
         expect_share(read_fence(run, energies[i].energy, 3, NULL).through, energies[i].through);
     const struct ceduo_fence_arrivals f = read_fence(run, 100e3, 3, NULL);
     expect_share(f.both, .268233);
     expect_share(f.defeated, .965400);
     expect_share(f.worn, .034600);
-    EXPECT_NEAR(f.defeated.mean, f.over.mean + f.through.mean - f.both.mean, 1e-12);
+    EXPECT_NEAR(f.defeated.mean, f.above.mean + f.through.mean - f.both.mean, 1e-12);
     EXPECT_NEAR(f.by_class[0], f.defeated.mean, 1e-12);
-    EXPECT_NEAR(f.by_class[1], f.over.mean, 1e-12);
+    EXPECT_NEAR(f.by_class[1], f.above.mean, 1e-12);
     EXPECT(isnan(f.per_year) && isnan(f.in_life), ==, true);
 }
 
@@ -100,7 +100,7 @@ TEST(height_is_perpendicular_to_the_ground)
         size_t over = 0;
         for (size_t r = 0; r < ROCKS; r++)
             over += height[r] / M_SQRT2 + DIAMETER > h;
-        EXPECT_NEAR(read_fence(run, 100e3, h, NULL).over.mean * ROCKS, (double)over, 1e-6);
+        EXPECT_NEAR(read_fence(run, 100e3, h, NULL).above.mean * ROCKS, (double)over, 1e-6);
     }
     const struct ceduo_fence_load load = read_fence(run, 100e3, 3, NULL).arriving;
     EXPECT_NEAR(load.top - load.middle, DIAMETER / 2, 1e-6);
@@ -118,7 +118,7 @@ TEST(a_control_on_a_vertex_has_the_ground_before_it)
     scene.scene.controls_count = 1;
     scene.scene.design = (struct ceduo_design_values){-1, -1, NAN};
     LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, ROCKS, 1);
-    expect_share(read_fence(run, 100e3, 4, NULL).over, .499307);
+    expect_share(read_fence(run, 100e3, 4, NULL).above, .499307);
 }
 
 TEST(bounds)
@@ -129,11 +129,11 @@ TEST(bounds)
     EXPECT(read_fence(run, 1e12, 1e6, NULL).defeated.mean, ==, 0);
     const struct ceduo_fence_arrivals weak = read_fence(run, 0, 1e6, NULL), low = read_fence(run, 1e12, 1e-9, NULL);
     EXPECT_IS(weak.through, (mean, a.reach.mean), (lo, a.reach.lo), (hi, a.reach.hi));
-    EXPECT_IS(low.over, (mean, a.reach.mean));
-    EXPECT_IS(weak.over, (mean, 0));
+    EXPECT_IS(low.above, (mean, a.reach.mean));
+    EXPECT_IS(weak.above, (mean, 0));
     LOCAL(ceduo_run, fewer) = run_option(&scene.scene, NULL, ROCKS / 16, 1);
     const struct ceduo_fence_arrivals wide = read_fence(fewer, 100e3, 3, NULL), narrow = read_fence(run, 100e3, 3, NULL);
-    EXPECT(narrow.over.hi - narrow.over.lo, <, (wide.over.hi - wide.over.lo) / 3);
+    EXPECT(narrow.above.hi - narrow.above.lo, <, (wide.above.hi - wide.above.lo) / 3);
     struct ceduo_fence_arrivals none;
     assert_int_equal(ceduo_run_fence(run, &scene.scene, 0, NULL, &none), CEDUO_OK);
     EXPECT(isnan(none.defeated.mean) && isnan(none.arriving.energy), ==, true);
@@ -150,7 +150,7 @@ TEST(what_equals_the_limit_is_held)
            top = ceduo_run_samples(run, 0, CEDUO_SAMPLE_HEIGHT)[0] + 2;
     EXPECT(read_fence(run, energy, top, NULL).defeated.mean, ==, 0);
     EXPECT(read_fence(run, nextafter(energy, 0), top, NULL).through.mean, ==, 1);
-    EXPECT(read_fence(run, energy, nextafter(top, 0), NULL).over.mean, ==, 1);
+    EXPECT(read_fence(run, energy, nextafter(top, 0), NULL).above.mean, ==, 1);
     EXPECT(read_fence(run, 3 * energy * (1 + 1e-9), top, NULL).worn.mean, ==, 0);
     EXPECT(read_fence(run, 3 * energy * (1 - 1e-9), top, NULL).worn.mean, ==, 1);
 }
@@ -243,8 +243,8 @@ TEST(blocks_of_one_size_are_rocks)
     scene.scene.blocks_count = 1;
     LOCAL(ceduo_run, weighted) = run_option(&scene.scene, NULL, ROCKS, 1);
     const struct ceduo_fence_arrivals f = read_fence(weighted, 100e3, 3, NULL), weak = read_fence(weighted, 0, 3, NULL);
-    const struct ceduo_estimate found[] = {f.over, f.through, f.both, f.defeated, f.worn},
-                                wanted[] = {rocks.over, rocks.through, rocks.both, rocks.defeated, rocks.worn};
+    const struct ceduo_estimate found[] = {f.above, f.through, f.both, f.defeated, f.worn},
+                                wanted[] = {rocks.above, rocks.through, rocks.both, rocks.defeated, rocks.worn};
     for (size_t i = 0; i < LENGTH(found); i++) {
         EXPECT_NEAR(found[i].mean, wanted[i].mean, 1.5 / ROCKS);
         EXPECT_NEAR(found[i].lo, wanted[i].lo, 1e-4);

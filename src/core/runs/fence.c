@@ -17,7 +17,7 @@ int ceduo_fence_class(double energy)
 struct ceduo_fence_arrivals ceduo_fence_none(void)
 {
     const struct ceduo_fence_load none = {NAN, NAN, NAN, NAN};
-    return (struct ceduo_fence_arrivals){.over = CEDUO_NO_ESTIMATE,
+    return (struct ceduo_fence_arrivals){.above = CEDUO_NO_ESTIMATE,
                                          .through = CEDUO_NO_ESTIMATE,
                                          .both = CEDUO_NO_ESTIMATE,
                                          .defeated = CEDUO_NO_ESTIMATE,

@@ -94,40 +94,40 @@ static void read_shares(const struct ceduo_run *run, const struct ceduo_scene *s
     struct weight_totals totals = {.n = (double)run->rocks, .w = (double)run->rocks, .ww = (double)run->rocks};
     if (run->weighted)
         totals = ceduo_run_weight_totals(run, s.end_weights[CEDUO_UNFINISHED]);
-    struct weighted_sum over = {0}, through = {0}, both = {0}, defeated = {0}, worn = {0};
+    struct weighted_sum above = {0}, through = {0}, both = {0}, defeated = {0}, worn = {0};
     struct weighted_sum cells[CEDUO_FENCE_HEIGHTS + 1][CEDUO_FENCE_CLASSES] = {{{0}}}; /* by lowest height and needed class */
-    double held[CEDUO_FENCE_CLASSES] = {0}, above = 0;                                 /* by the height of the fence */
+    double held[CEDUO_FENCE_CLASSES] = {0}, higher = 0;                                /* by the height of the fence */
     for (size_t r = 0; r < n; r++) {
-        bool is_over = p[r].top > fence->height, is_through = p[r].energy > fence->energy;
+        bool is_above = p[r].top > fence->height, is_through = p[r].energy > fence->energy;
         int needed = ceduo_fence_class(p[r].energy);
         size_t h = (size_t)fmin(CEDUO_FENCE_HEIGHTS, fmax(0, ceil(p[r].top) - CEDUO_FENCE_LOWEST));
-        weighted_sum_add(&over, p[r].weight, is_over);
+        weighted_sum_add(&above, p[r].weight, is_above);
         weighted_sum_add(&through, p[r].weight, is_through);
-        weighted_sum_add(&both, p[r].weight, is_over && is_through);
-        weighted_sum_add(&defeated, p[r].weight, is_over || is_through);
-        weighted_sum_add(&worn, p[r].weight, !is_over && !is_through && p[r].energy > SERVICE * fence->energy);
+        weighted_sum_add(&both, p[r].weight, is_above && is_through);
+        weighted_sum_add(&defeated, p[r].weight, is_above || is_through);
+        weighted_sum_add(&worn, p[r].weight, !is_above && !is_through && p[r].energy > SERVICE * fence->energy);
         weighted_sum_add(&cells[h][needed], p[r].weight, 1);
-        *(is_over ? &above : &held[needed]) += p[r].weight;
+        *(is_above ? &higher : &held[needed]) += p[r].weight;
         for (; h < CEDUO_FENCE_HEIGHTS; h++)
             f->grid.energy[h] = fmax(f->grid.energy[h], p[r].energy);
     }
-    const struct weighted_sum *const sums[] = {&over, &through, &both, &defeated, &worn};
-    struct ceduo_estimate *const to[] = {&f->over, &f->through, &f->both, &f->defeated, &f->worn};
+    const struct weighted_sum *const sums[] = {&above, &through, &both, &defeated, &worn};
+    struct ceduo_estimate *const to[] = {&f->above, &f->through, &f->both, &f->defeated, &f->worn};
     for (size_t i = 0; i < 5; i++)
         *to[i] = estimate_share(run, &totals, s.end_counts[CEDUO_UNFINISHED], sums[i]);
-    struct weighted_sum higher = {0};
+    struct weighted_sum highest = {0};
     for (size_t h = CEDUO_FENCE_HEIGHTS; h-- > 0;) { /* rocks above the height, and those below that need a larger class */
         for (size_t i = 0; i < CEDUO_FENCE_CLASSES; i++)
-            add_sum(&higher, &cells[h + 1][i]);
-        struct weighted_sum all = higher;
+            add_sum(&highest, &cells[h + 1][i]);
+        struct weighted_sum all = highest;
         for (size_t i = CEDUO_FENCE_CLASSES; i-- > 0;) {
             f->grid.defeated[h][i] = estimate_share(run, &totals, s.end_counts[CEDUO_UNFINISHED], &all);
             for (size_t k = 0; k <= h; k++)
                 add_sum(&all, &cells[k][i]);
         }
     }
-    for (size_t i = CEDUO_FENCE_CLASSES; i-- > 0; above += held[i])
-        f->by_class[i] = above / totals.w;
+    for (size_t i = CEDUO_FENCE_CLASSES; i-- > 0; higher += held[i])
+        f->by_class[i] = higher / totals.w;
     ceduo_fence_choose(&f->grid, ceduo_exceed_limit(scene, &scene->controls[control]), f->enough);
     if (!run->weighted)
         return;
