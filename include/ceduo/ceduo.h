@@ -21,6 +21,7 @@ extern "C" {
 #endif
 
 #include "adc.h"
+#include "alternative_law.h"
 #include "assess.h"
 #include "blocks.h"
 #include "calibrate.h"
@@ -30,11 +31,10 @@ extern "C" {
 #include "key.h"
 #include "naslund.h"
 #include "observe.h"
-#include "other.h"
 #include "pool.h"
-#include "question.h"
 #include "read.h"
 #include "record.h"
+#include "request.h"
 #include "result.h"
 #include "rock.h"
 #include "rotation.h"

@@ -28,8 +28,8 @@ int ceduo_intensity_find(double energy);
 struct ceduo_intensity {
     const char *word;              /* weak, medium, strong */
     double from, to;               /* J; `to` of the last is infinite */
-    struct ceduo_estimate within;  /* rocks of this intensity per year */
-    double left;                   /* share of the rate without forest; NaN: no such rocks without forest */
+    struct ceduo_estimate rate;    /* rocks of this intensity per year */
+    double remaining_share;        /* share of the rate without forest; NaN: no such rocks without forest */
     bool of_return[CEDUO_RETURNS]; /* true if the energy of the return period has this intensity */
 };
 
@@ -46,7 +46,7 @@ struct ceduo_hazard_point {
 /* Exceedance rates, up to the first energy that no rock exceeds. */
 struct ceduo_hazard_curve {
     size_t count;
-    struct ceduo_hazard_point at[CEDUO_HAZARD_ENERGIES];
+    struct ceduo_hazard_point points[CEDUO_HAZARD_ENERGIES];
 };
 
 struct ceduo_hazard {
@@ -57,7 +57,7 @@ struct ceduo_hazard {
     struct ceduo_estimate reach;    /* rocks that arrive */
     struct ceduo_estimate accepted; /* rocks that arrive with more than the accepted energy; NaN: none is given */
     double accepted_return;         /* years: ceduo_accepted_return() of the control */
-    double left; /* ceduo_hazard_judged_rate() divided by its value without forest; NaN: that is 0 or unknown */
+    double remaining_share; /* ceduo_hazard_judged_rate() divided by its value without forest; NaN: that is 0 or unknown */
     struct ceduo_intensity intensity[CEDUO_INTENSITIES];
 };
 
@@ -67,7 +67,7 @@ struct ceduo_hazard ceduo_hazard_none(void);
 /* Return the rate of harmful rocks at a control: above the accepted energy, or of any energy if none is given. */
 struct ceduo_estimate ceduo_hazard_judged_rate(const struct ceduo_hazard *hazard);
 
-/* Set `left` in `hazard` from the rates of `bare`, which may be `hazard` itself. */
+/* Set `remaining_share` in `hazard` from the rates of `bare`, which may be `hazard` itself. */
 void ceduo_hazard_compare(struct ceduo_hazard *hazard, const struct ceduo_hazard *bare);
 
 #endif

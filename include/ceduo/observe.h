@@ -9,7 +9,7 @@
 
 struct ceduo_observed_row {
     const char *path, *list;
-    enum ceduo_where where;
+    enum ceduo_location location;
     enum ceduo_quantity quantity;
 };
 

@@ -20,7 +20,7 @@ enum ceduo_status ceduo_pool_reuse_or_create(const struct ceduo_run_def *def, st
 enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_option *option, struct ceduo_run **run);
 
 /* Create all runs that the results need: one without forest and, unless the contact model is index, one through each forest. If
- * `other_energy` is set, each forest also gets a run under the other energy law. Calling it again for the same scene has no
+ * `alternative_energy` is set, each forest also gets a run under the other energy law. Calling it again for the same scene has no
  * effect. Return CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool);
 

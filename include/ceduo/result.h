@@ -2,8 +2,8 @@
 #ifndef CEDUO_RESULT_H
 #define CEDUO_RESULT_H
 
+#include "alternative_law.h"
 #include "assess.h"
-#include "other.h"
 #include "pool.h"
 
 /* Results of a run, one entry per control. */
@@ -28,11 +28,11 @@ void ceduo_simulated_free(struct ceduo_simulated *simulated);
 
 /* Results of one option. */
 struct ceduo_option_result {
-    struct ceduo_stand_result *stands;       /* one per belt */
-    struct ceduo_index *controls;            /* one per control, in the scene's order */
-    struct ceduo_simulated wooded;           /* through its forest; with the contact model index: without forest */
-    struct ceduo_difference *differences;    /* of `wooded` to the first option; all NaN if unknown */
-    struct ceduo_alternative_energy *others; /* one per control: the same rocks under the other energy law */
+    struct ceduo_stand_result *stands;             /* one per belt */
+    struct ceduo_index *controls;                  /* one per control, in the scene's order */
+    struct ceduo_simulated wooded;                 /* through its forest; with the contact model index: without forest */
+    struct ceduo_difference *differences;          /* of `wooded` to the first option; all NaN if unknown */
+    struct ceduo_alternative_energy *alternatives; /* one per control: the same rocks under the other energy law */
 };
 
 /* All results of a scene. */
@@ -52,11 +52,11 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
                                       struct ceduo_result **result);
 
 /* Assess every option from results read earlier: `bare` without forest, `wooded` through the forest of each option, NULL if not
- * known yet. `differences` and `others` (may be NULL) have one row per option and one entry per control. With the contact model
- * index `wooded`, `differences` and `others` are ignored. */
+ * known yet. `differences` and `alternatives` (may be NULL) have one row per option and one entry per control. With the contact
+ * model index `wooded`, `differences` and `alternatives` are ignored. */
 enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_simulated *bare,
                                       const struct ceduo_simulated *const *wooded, const struct ceduo_difference *differences,
-                                      const struct ceduo_alternative_energy *others, struct ceduo_result **result);
+                                      const struct ceduo_alternative_energy *alternatives, struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 
 /* Assess an option from its simulated rocks. Fills `stands` for each belt and `controls` for each control. `wooded` may be

@@ -30,8 +30,8 @@
  * shoots. Logs persist. Trees that a cut leaves are grouped like the first grouped class of the inventory.
  *
  * Trees and shoots share the growing space (assumed). In computed years, that is all but year 0 as filed, only the shoots are
- * thinned, by one factor to growth.sdi_most·(1 - ceduo_growing_space_used()). If less than one per stool is left, stools die, and
- * each remaining stool has one shoot. Because years are independent, a cut starts again from all stools of the inventory. */
+ * thinned, by one factor to growth.sdi_max·(1 - ceduo_growing_space_used()). If less than one per stool is left, stools die,
+ * and each remaining stool has one shoot. As years are independent, a cut starts again from all stools of the inventory. */
 
 #define CEDUO_YEAR_MAX 100000 /* the last year of a window */
 
@@ -90,8 +90,8 @@ bool ceduo_stand_is_cut_year(const struct ceduo_stand *stand, double first_cut, 
  * 1933); 0 without stems. */
 double ceduo_stems_sdi(const struct ceduo_stems *stems, size_t n);
 
-/* Return the share of the growing space that the trees of a grown stand take: their density index over growth.trees_sdi_most.
- * Above 1 the site cannot carry them; 0 without sdi_most. */
+/* Return the share of the growing space that the trees of a grown stand take: their density index over growth.trees_sdi_max.
+ * Above 1 the site cannot carry them; 0 without sdi_max. */
 double ceduo_growing_space_used(const struct ceduo_growth *growth, const struct ceduo_stand *grown);
 
 #endif

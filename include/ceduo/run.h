@@ -26,10 +26,10 @@ struct ceduo_run_def {
     const struct ceduo_option *option; /* its forest is simulated; must outlive the run; NULL: without forest */
     unsigned threads;                  /* at most CEDUO_THREADS_MAX; 0: one; the results do not depend on it */
     enum ceduo_kernel kernel;          /* the results do not depend on it */
-    uint64_t rocks_most;               /* upper limit of ceduo_run_extend(); at most CEDUO_ROCKS_MAX */
+    uint64_t rocks_max;                /* upper limit of ceduo_run_extend(); at most CEDUO_ROCKS_MAX */
     bool arrivals_only;                /* trajectories stop after the last control; their ends are unknown */
-    bool other_energy;                 /* for a pool: simulate each forest also under the other energy law, see other.h */
-    const ceduo_flag *cancel;          /* may be NULL; if another thread sets it, the call returns soon */
+    bool alternative_energy;  /* for a pool: simulate each forest also under the other energy law, see alternative_law.h */
+    const ceduo_flag *cancel; /* may be NULL; if another thread sets it, the call returns soon */
     void (*progress)(void *context, uint64_t rocks); /* may be NULL; called from time to time, by one worker at a time */
     void *context;
 };

@@ -179,7 +179,7 @@ struct ceduo_regulation_item {
     size_t species_count; /* 0: all species without an item of their own */
     char **species;       /* names in ceduo_species_list() */
     int system;           /* only for this system; -1: any */
-    double least, most;   /* standards per ha, or years; NaN: no maximum */
+    double min, max;      /* standards per ha, or years; NaN: no maximum */
     char *article;        /* and the act that contains it */
     unsigned year;        /* of the act */
 };
@@ -193,7 +193,7 @@ struct ceduo_regulation {
 
 /* Compliance of a coppice with its regulation. */
 struct ceduo_compliance {
-    const struct ceduo_regulation *of;                              /* NULL: no regulation, or no coppice */
+    const struct ceduo_regulation *regulation;                      /* NULL: no regulation, or no coppice */
     const struct ceduo_regulation_item *standards_item, *turn_item; /* NULL: no item for this species */
     double standards;             /* per ha, left by a cut; all trees if the stand does not specify them */
     double turn;                  /* years: age of the oldest shoots at a cut; NaN: the stand is never cut */
@@ -235,8 +235,8 @@ struct ceduo_stems ceduo_stems_default(void);
 struct ceduo_control ceduo_control_default(void);
 
 /* Check that the parts are consistent: rock, slope, release on the slope, controls on the slope beyond the release. Sets
- * `where` (may be NULL) to the index of the offending control. CEDUO_BAD_ARGUMENT if `scene` is NULL. */
-enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where);
+ * `bad_control` (may be NULL) to the index of the offending control. CEDUO_BAD_ARGUMENT if `scene` is NULL. */
+enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *bad_control);
 
 /* True if rocks differ in size, mass or shape. */
 bool ceduo_scene_rock_varies(const struct ceduo_scene *scene);
@@ -260,12 +260,12 @@ enum ceduo_observed_use {
 };
 
 /* Place of an observation. It determines the keys, and the simulated values to compare. */
-enum ceduo_where {
-    CEDUO_WHERE_AT_REST,  /* end point of a rock that came to rest or was stopped */
-    CEDUO_WHERE_AT_PLACE, /* rocks that pass a place */
-    CEDUO_WHERE_LARGEST,  /* maximum of each rock along its trajectory */
-    CEDUO_WHERE_ALONG,    /* mean over the metres of a stretch, for each rock that enters it */
-    CEDUO_WHERE_ON_STEMS  /* impacts on stems along a stretch: centre of the rock */
+enum ceduo_location {
+    CEDUO_LOCATION_AT_REST,  /* end point of a rock that came to rest or was stopped */
+    CEDUO_LOCATION_AT_PLACE, /* rocks that pass a place */
+    CEDUO_LOCATION_LARGEST,  /* maximum of each rock along its trajectory */
+    CEDUO_LOCATION_ALONG,    /* mean over the metres of a stretch, for each rock that enters it */
+    CEDUO_LOCATION_ON_STEMS  /* impacts on stems along a stretch: centre of the rock */
 };
 
 /* Observed quantity; its row has the unit. Heights above the ground refer to the underside, on stems to the centre. */

@@ -68,7 +68,7 @@ struct ceduo_logs {
 
 /* Growth of a stem: dbh D(1 - exp(-k age)), height H(1 - exp(-m age)). All 0: unknown. */
 struct ceduo_curve {
-    double dbh_most, dbh_rate;      /* D, m, > 0; k, 1/year, > 0 */
+    double dbh_max, dbh_rate;       /* D, m, > 0; k, 1/year, > 0 */
     double height_max, height_rate; /* H, m, > 0; m, 1/year, > 0 */
 };
 
@@ -76,8 +76,8 @@ struct ceduo_curve {
 struct ceduo_growth {
     struct ceduo_curve shoots, trees;
     double shoots_young, shoots_old; /* shoots per stool just after a cut, and in old age; shoots_young >= shoots_old >= 1 */
-    double sdi_most;                 /* maximum stand density index, > 0: shoots are thinned to it; 0: not thinned */
-    double trees_sdi_most;           /* density index of trees that take all growing space; 0: CEDUO_TREES_SPACE of sdi_most */
+    double sdi_max;                  /* maximum stand density index, > 0: shoots are thinned to it; 0: not thinned */
+    double trees_sdi_max;            /* density index of trees that take all growing space; 0: CEDUO_TREES_SPACE of sdi_max */
     unsigned stump_years;            /* years that stumps persist after a cut */
 };
 

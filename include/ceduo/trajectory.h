@@ -37,8 +37,8 @@ struct ceduo_stem_encounter {
 
 /* Callbacks for a trajectory; any may be NULL. */
 struct ceduo_trajectory_callbacks {
-    bool (*enough)(void *context); /* called every few milliseconds; true cancels: CEDUO_CANCELLED */
-    void (*piece)(void *context, const struct ceduo_trajectory_segment *piece); /* each segment, in order */
+    bool (*is_cancelled)(void *context); /* called every few milliseconds; true cancels: CEDUO_CANCELLED */
+    void (*segment)(void *context, const struct ceduo_trajectory_segment *segment); /* each segment, in order */
     void (*stem)(void *context, const struct ceduo_stem_encounter *stem); /* each stem, after the segment that leads to it */
     void *context;
 };
@@ -62,18 +62,19 @@ struct ceduo_trajectory {
     uint64_t stems_drawn;
 };
 
-/* Simulate rock number `rock` of a scene through the forest of `option` (NULL: without forest), as a run does. `watch` may be
- * NULL. `crossings` (may be NULL) has one entry per control, in their order. Requires a scene that has passed
+/* Simulate rock number `rock` of a scene through the forest of `option` (NULL: without forest), as a run does. `callbacks` may
+ * be NULL. `crossings` (may be NULL) has one entry per control, in their order. Requires a scene that has passed
  * ceduo_scene_check(). Return CEDUO_NO_MEMORY, CEDUO_CANCELLED (`trajectory` ends early) or CEDUO_OK. */
 enum ceduo_status ceduo_trajectory_run(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                       const struct ceduo_trajectory_callbacks *watch, struct ceduo_trajectory *trajectory,
+                                       const struct ceduo_trajectory_callbacks *callbacks, struct ceduo_trajectory *trajectory,
                                        struct ceduo_crossing *crossings);
 
 /* Simulates many rocks, one at a time, of a scene that is prepared once. NULL without memory, or for a bad scene. */
 struct ceduo_tracer;
 struct ceduo_tracer *ceduo_tracer_create(const struct ceduo_scene *scene, const struct ceduo_option *option);
-enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *follower, uint64_t rock, const struct ceduo_trajectory_callbacks *watch,
-                                   struct ceduo_trajectory *trajectory, struct ceduo_crossing *crossings);
-void ceduo_tracer_free(struct ceduo_tracer *follower);
+enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *tracer, uint64_t rock,
+                                   const struct ceduo_trajectory_callbacks *callbacks, struct ceduo_trajectory *trajectory,
+                                   struct ceduo_crossing *crossings);
+void ceduo_tracer_free(struct ceduo_tracer *tracer);
 
 #endif

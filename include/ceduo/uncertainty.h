@@ -65,7 +65,7 @@ enum ceduo_uncertainty_kind {
 #define CEDUO_UNCERTAINTY_YEARS_MAX      60
 #define CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS 1000
 
-struct ceduo_results; /* question.h */
+struct ceduo_results; /* request.h */
 
 struct ceduo_uncertainty_def {
     const struct ceduo_scene *scene;
@@ -83,8 +83,8 @@ struct ceduo_uncertainty_def {
      * fit.p95 are NaN. */
     bool brief;
     bool rotation;              /* compute each option over its rotation, too; not with the contact model index */
-    bool alone;                 /* evaluate only `option`; the other options have p5, p95 NaN, and there is no ranking */
-    size_t option;              /* if `alone` */
+    bool one_option;            /* evaluate only `option`; the other options have p5, p95 NaN, and there is no ranking */
+    size_t option;              /* if `one_option` */
     struct ceduo_window window; /* years; step 0: those of ceduo_scene_window() */
     uint64_t effort_max;        /* contacts + stems + 2 * stems hit of all points; above it CEDUO_CANCELLED; 0: unlimited */
     unsigned threads;           /* at most CEDUO_THREADS_MAX; 0: one */

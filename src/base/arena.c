@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "must.h"
+#include "oom.h"
 #include "text.h"
 
 #define PAGE ((size_t)16 * 1024)

@@ -9,7 +9,7 @@
 #include <setjmp.h>
 #include <stddef.h>
 
-#include "must.h"
+#include "oom.h"
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static size_t active_calls;                /* library calls that are running */

@@ -39,7 +39,7 @@ OP(real, splat, (double s), s)
 OP(ints, as_ints, (real p), elementary_bits(p))
 OP(real, as_real, (ints p), elementary_real(p))
 OP(mask, less, (real p, real q), p < q)
-OP(mask, at_least, (real p, real q), p >= q)
+OP(mask, greater_equal, (real p, real q), p >= q)
 OP(mask, equal, (real p, real q), p == q)
 OP(mask, and_not, (mask p, mask q), p && !q)
 OP(bool, any, (mask p), p)
@@ -118,7 +118,7 @@ typedef __mmask8 mask;
 
 OP(real, splat, (double s), _mm512_set1_pd(s))
 OP(mask, less, (real p, real q), _mm512_cmp_pd_mask(p, q, _CMP_LT_OQ))
-OP(mask, at_least, (real p, real q), _mm512_cmp_pd_mask(p, q, _CMP_GE_OQ))
+OP(mask, greater_equal, (real p, real q), _mm512_cmp_pd_mask(p, q, _CMP_GE_OQ))
 OP(mask, equal, (real p, real q), _mm512_cmp_pd_mask(p, q, _CMP_EQ_OQ))
 OP(mask, equal_ints, (ints p, ints q), _mm512_cmpeq_epi64_mask((__m512i)p, (__m512i)q))
 OP(mask, greater_ints, (ints p, ints q), _mm512_cmpgt_epi64_mask((__m512i)p, (__m512i)q)) /* p > q, as signed numbers */
@@ -138,8 +138,8 @@ FORCE_INLINE void compress(mask which, ints p, void *to)
 }
 
 /* Return number i modulo 16 of a table of 16. */
-#define LOOK_UP_16
-OP(real, look_up_16, (const double *table, ints i), _mm512_permutex2var_pd(load(table), (__m512i)i, load(table + 8)))
+#define LOOKUP_16
+OP(real, lookup_16, (const double *table, ints i), _mm512_permutex2var_pd(load(table), (__m512i)i, load(table + 8)))
 
 #define EVEN(p, q) SHUFFLED(p, q, 0, 2, 4, 6, 8, 10, 12, 14)
 #define ODD(p, q)  SHUFFLED(p, q, 1, 3, 5, 7, 9, 11, 13, 15)
@@ -234,7 +234,7 @@ FORCE_INLINE void compress(mask which, ints p, void *to)
 #if REAL_LANES < 8
 
 OP(mask, less, (real p, real q), (mask)(p < q))
-OP(mask, at_least, (real p, real q), (mask)(p >= q))
+OP(mask, greater_equal, (real p, real q), (mask)(p >= q))
 OP(mask, equal, (real p, real q), (mask)(p == q))
 OP(mask, equal_ints, (ints p, ints q), (mask)(p == q))
 OP(mask, greater_ints, (ints p, ints q), (mask)((mask)p > (mask)q))

@@ -11,7 +11,7 @@
 #include <strings.h>
 
 #include "language.h"
-#include "must.h"
+#include "oom.h"
 #include "utf8.h"
 
 static bool reserve(struct text *text, size_t more)

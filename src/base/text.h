@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 /* A growing string. Starts zeroed; `bytes` is NULL or ends in NUL. If memory runs out, `failed` stays set and nothing more is
- * appended: check it once at the end, or call ceduo_memory_failed(). In the program memory never fails (must.h). */
+ * appended: check it once at the end, or call ceduo_memory_failed(). In the program memory never fails (oom.h). */
 struct text {
     char *bytes;
     size_t length, capacity;

@@ -7,7 +7,7 @@
 
 #include "base/hash.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "each.h"
 #include "messages.h"
 #include "resume.h"

@@ -3,7 +3,7 @@
 #define CEDUO_BATCH_H
 
 #include "arguments.h"
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 #include "study/snapshot.h"
 
 /* ---- commands: print to standard output or --output, and return the exit status ---- */
@@ -53,11 +53,11 @@ void ceduo_progress_scenes(struct progress *progress, size_t computed, size_t do
 
 /* A request to simulate one scene, and its results. */
 struct query {
-    struct ceduo_request question;
+    struct ceduo_request request;
     bool pictures, envelopes; /* keep the data of pictures; of envelopes along the slope */
     size_t trajectories;      /* number of trajectories to keep */
     struct progress progress;
-    struct ceduo_results answer;
+    struct ceduo_results results;
     double seconds; /* of the runs */
     struct ceduo_snapshot *snapshot;
     struct ceduo_verdict verdict;
@@ -70,7 +70,7 @@ struct query {
 void ceduo_query_begin(struct query *query, const struct arguments *arguments, const struct scene_file *file);
 
 /* Add one rotation of each option, with few rocks, if --years is not given. */
-void ceduo_query_add_years(struct ceduo_request *question);
+void ceduo_query_add_years(struct ceduo_request *request);
 
 /* Simulate the runs of the question. */
 enum ceduo_status ceduo_query_run(struct query *query);

@@ -77,9 +77,9 @@ static bool check_numbers(const struct each *e)
         struct csv_cell cell = ceduo_csv_next_cell(&e->table, i);
         if (e->heads[i].sets != PATH_NUMBER || is_yaml(cell) || ceduo_csv_is_empty(cell))
             continue;
-        enum csv_numeral how = ceduo_csv_normalize_number(&e->table, cell, number);
-        if (how != CSV_NUMERAL_GOOD && how != CSV_NUMERAL_NONE)
-            good = ceduo_csv_report_number(&e->table, cell, how);
+        enum csv_numeral numeral = ceduo_csv_normalize_number(&e->table, cell, number);
+        if (numeral != CSV_NUMERAL_GOOD && numeral != CSV_NUMERAL_NONE)
+            good = ceduo_csv_report_number(&e->table, cell, numeral);
     }
     return good;
 }

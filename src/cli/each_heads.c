@@ -5,7 +5,7 @@
 #include <strings.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "each.h"
 
 /* ---- intended paths ---- */

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "batch.h"
 #include "ceduo/status.h"
 #include "messages.h"

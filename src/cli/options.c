@@ -12,7 +12,7 @@
 
 #include "arguments.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
 #include "ceduo/uncertainty.h"
 #include "ceduo/years.h"

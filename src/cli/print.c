@@ -39,31 +39,31 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
     struct query q;
     bool page = a->format == CEDUO_TABLE, stands = a->stands && a->format == CEDUO_CSV;
     ceduo_query_begin(&q, a, file);
-    uint64_t rocks = q.question.rocks;
+    uint64_t rocks = q.request.rocks;
     if (stands) /* --rows stands needs no simulation */
-        q.question.rocks = 0;
+        q.request.rocks = 0;
     if (!a->years && !stands && judges_years(a))
-        ceduo_query_add_years(&q.question);
+        ceduo_query_add_years(&q.request);
     if (page && !a->years) { /* simulate only what the page prints */
-        q.question.rotations = a->details;
-        q.question.block_rocks = a->details ? BLOCK_ROCKS : 0;
+        q.request.rotations = a->details;
+        q.request.block_rocks = a->details ? BLOCK_ROCKS : 0;
     }
-    q.question.run.other_energy = !page || a->details;
+    q.request.run.alternative_energy = !page || a->details;
     enum ceduo_status status = ceduo_query_run(&q);
     if (status == CEDUO_OK && page)
         status = ceduo_query_add_uncertainty(&q, a, file);
     if (status == CEDUO_OK) {
         const struct ceduo_report report = {.file = file,
-                                            .result = q.answer.result,
-                                            .years = a->years ? q.answer.years : NULL,
+                                            .result = q.results.result,
+                                            .years = a->years ? q.results.years : NULL,
                                             .verdict = &q.verdict,
                                             .uncertainty = q.uncertainty.file ? &q.uncertainty : NULL,
-                                            .blocks = q.answer.blocks,
-                                            .work = q.answer.work,
+                                            .blocks = q.results.blocks,
+                                            .work = q.results.work,
                                             .seconds = q.seconds,
                                             .details = a->details,
                                             .rocks_asked = stands ? rocks : 0,
-                                            .remarks = {a->tolerance, q.answer.tolerance_met, file->ground_assumed}};
+                                            .remarks = {a->tolerance, q.results.tolerance_met, file->ground_assumed}};
         if (!print_figures(a, ceduo_result_figures, ceduo_result_csv(a->stands, a->years),
                            &(struct ceduo_place){.report = &report}, out)) {
             ceduo_report_page(out, &report, a->details, !ceduo_is_utf8());
@@ -159,7 +159,7 @@ static void print_plot(const struct arguments *a, const struct ceduo_picture *pi
 /* Append a picture for each option, belt or control that it depends on. */
 static void print_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct query *q, struct text *out)
 {
-    struct ceduo_years *const *years = q->answer.years;
+    struct ceduo_years *const *years = q->results.years;
     struct ceduo_picture picture = {.scene = scene,
                                     .snapshot = q->snapshot,
                                     .verdict = q->snapshot ? &q->verdict : NULL,
@@ -193,8 +193,8 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
         q.pictures = true;
         q.envelopes = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS;
         q.trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0;
-        q.question.run.other_energy = false;
-        q.question.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
+        q.request.run.alternative_energy = false;
+        q.request.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
         status = ceduo_query_run(&q);
     }
     if (status == CEDUO_OK)
@@ -247,10 +247,10 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
     q.pictures = q.envelopes = true;
     q.trajectories = TRAJECTORIES;
     if (a->window.step > 0)
-        q.question.year_rocks = YEAR_ROCKS;
+        q.request.year_rocks = YEAR_ROCKS;
     else
-        ceduo_query_add_years(&q.question);
-    q.question.block_rocks = file->scene.options_count == 1 ? BLOCK_ROCKS : 0;
+        ceduo_query_add_years(&q.request);
+    q.request.block_rocks = file->scene.options_count == 1 ? BLOCK_ROCKS : 0;
     enum ceduo_status status = ceduo_query_run(&q);
     if (status == CEDUO_OK)
         status = ceduo_query_add_uncertainty(&q, a, file);
@@ -259,12 +259,12 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
         LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
         append_command(&command, a);
         struct ceduo_report report = {.file = file,
-                                      .result = q.answer.result,
+                                      .result = q.results.result,
                                       .verdict = &q.verdict,
-                                      .blocks = q.answer.blocks,
-                                      .remarks = {a->tolerance, q.answer.tolerance_met, file->ground_assumed},
+                                      .blocks = q.results.blocks,
+                                      .remarks = {a->tolerance, q.results.tolerance_met, file->ground_assumed},
                                       .uncertainty = &q.uncertainty,
-                                      .years_ahead = q.answer.years,
+                                      .years_ahead = q.results.years,
                                       .snapshot = q.snapshot,
                                       .command = ceduo_text_string(&command),
                                       .reproducible = true};

@@ -162,18 +162,18 @@ void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file, 
     struct warnings warnings = {.file = file};
     struct ceduo_scene bare = file->scene;
     bare.simulation.contact_model = CEDUO_INDEX; /* simulates the bare slope only */
-    struct ceduo_request question = ceduo_request_default(&bare);
-    struct ceduo_results answer;
-    question.rocks = bare.simulation.rocks < CHECK_ROCKS ? bare.simulation.rocks : CHECK_ROCKS;
-    question.run.rocks_most = question.rocks;
-    question.run.threads = (unsigned)a->threads;
-    question.run.cancel = ceduo_interrupt_flag();
-    if (ceduo_simulate_request(&question, NULL, &answer) == CEDUO_OK) {
-        ceduo_words_warn_no_answer(answer.result, warn, &warnings);
+    struct ceduo_request request = ceduo_request_default(&bare);
+    struct ceduo_results results;
+    request.rocks = bare.simulation.rocks < CHECK_ROCKS ? bare.simulation.rocks : CHECK_ROCKS;
+    request.run.rocks_max = request.rocks;
+    request.run.threads = (unsigned)a->threads;
+    request.run.cancel = ceduo_interrupt_flag();
+    if (ceduo_simulate_request(&request, NULL, &results) == CEDUO_OK) {
+        ceduo_words_warn_no_answer(results.result, warn, &warnings);
         if (stands)
-            warn_stands(answer.result, &warnings);
+            warn_stands(results.result, &warnings);
     }
-    ceduo_results_release(&answer);
+    ceduo_results_release(&results);
     ceduo_text_free(&warnings.printed);
 }
 
@@ -188,18 +188,18 @@ enum exit_status ceduo_batch_failed(const struct scene_file *file, enum ceduo_st
 
 void ceduo_query_begin(struct query *q, const struct arguments *a, const struct scene_file *file)
 {
-    *q = (struct query){.progress = ceduo_progress_begin(a), .question = ceduo_request_default(&file->scene)};
-    struct ceduo_request *question = &q->question;
-    question->rocks = a->rocks > 0 ? a->rocks : a->tolerance > 0 ? CEDUO_ROCKS_MAX : file->scene.simulation.rocks;
-    question->run.rocks_most = question->rocks;
-    question->tolerance = a->tolerance;
-    question->run.threads = (unsigned)a->threads;
-    question->run.other_energy = true;
-    question->run.cancel = ceduo_interrupt_flag();
-    question->run.progress = show_rock_count;
-    question->run.context = &q->progress;
-    question->years = a->years;
-    question->window = a->window;
+    *q = (struct query){.progress = ceduo_progress_begin(a), .request = ceduo_request_default(&file->scene)};
+    struct ceduo_request *request = &q->request;
+    request->rocks = a->rocks > 0 ? a->rocks : a->tolerance > 0 ? CEDUO_ROCKS_MAX : file->scene.simulation.rocks;
+    request->run.rocks_max = request->rocks;
+    request->tolerance = a->tolerance;
+    request->run.threads = (unsigned)a->threads;
+    request->run.alternative_energy = true;
+    request->run.cancel = ceduo_interrupt_flag();
+    request->run.progress = show_rock_count;
+    request->run.context = &q->progress;
+    request->years = a->years;
+    request->window = a->window;
 }
 
 #define YEAR_ROCKS 1000 /* of each year: the error of a share near the limit is 14 of 1000 */
@@ -209,35 +209,35 @@ void ceduo_query_add_years(struct ceduo_request *q)
 {
     q->years = q->years_independent = true;
     q->year_rocks = YEAR_ROCKS;
-    q->years_most = YEARS_MAX;
+    q->years_max = YEARS_MAX;
 }
 
 enum ceduo_status ceduo_query_run(struct query *q)
 {
     struct ceduo_pool *pool = NULL; /* for the pictures */
-    enum ceduo_status status = ceduo_simulate_request(&q->question, q->pictures ? &pool : NULL, &q->answer);
+    enum ceduo_status status = ceduo_simulate_request(&q->request, q->pictures ? &pool : NULL, &q->results);
     q->seconds = ceduo_clock() - q->progress.start;
-    const struct ceduo_snapshot_def def = {.scene = q->question.run.scene,
+    const struct ceduo_snapshot_def def = {.scene = q->request.run.scene,
                                            .runs = pool,
                                            .envelope_rocks = q->envelopes ? CEDUO_ENVELOPE_ROCKS : 0,
                                            .trajectories = q->trajectories,
-                                           .cancel = q->question.run.cancel};
+                                           .cancel = q->request.run.cancel};
     if (status == CEDUO_OK && q->pictures)
         status = ceduo_snapshot_create(&def, &q->snapshot);
     ceduo_pool_free(pool);
-    return status == CEDUO_OK ? ceduo_compare_options(q->answer.result, q->answer.years, q->answer.rotations, &q->verdict)
+    return status == CEDUO_OK ? ceduo_compare_options(q->results.result, q->results.years, q->results.rotations, &q->verdict)
                               : status;
 }
 
 enum exit_status ceduo_query_end(struct query *q, const struct scene_file *file, enum ceduo_status status)
 {
-    const struct ceduo_result *r = q->answer.result;
+    const struct ceduo_result *r = q->results.result;
     bool finished = !r || ceduo_result_unfinished(r) * 1000 <= ceduo_result_rocks(r);
     if (q->uncertainty.answer)
         ceduo_uncertainty_free(&q->uncertainty_answer);
     ceduo_verdict_release(&q->verdict);
     ceduo_snapshot_free(q->snapshot);
-    ceduo_results_release(&q->answer);
+    ceduo_results_release(&q->results);
     return status != CEDUO_OK ? ceduo_batch_failed(file, status) : finished ? EXIT_DONE : EXIT_RUN;
 }
 
@@ -289,21 +289,21 @@ enum ceduo_status ceduo_query_uncertainty(struct query *q, const struct argument
 
 enum ceduo_status ceduo_query_add_uncertainty(struct query *q, const struct arguments *a, struct scene_file *file)
 {
-    const struct ceduo_result *result = q->answer.result;
+    const struct ceduo_result *result = q->results.result;
     uint64_t rocks = ceduo_result_rocks(result);
     struct ceduo_uncertainty_def def;
     enum ceduo_status status = CEDUO_OK;
-    bool rotation = q->answer.years && !ceduo_uncertainty_no_rotation(&file->scene);
+    bool rotation = q->results.years && !ceduo_uncertainty_no_rotation(&file->scene);
     if (!init_uncertainty(q, a, file, rotation, &def))
         return CEDUO_NO_MEMORY;
     def.brief = true;
-    def.own = &q->answer;
+    def.own = &q->results;
     def.rocks = rocks < CEDUO_UNCERTAINTY_ROCKS ? rocks : CEDUO_UNCERTAINTY_ROCKS;
     def.points_max = def.points;
     if (rocks < 2 || !result->wooded || ceduo_page_is_unassessable(result))
         def.points = 0;
     else if (def.inputs_count > 0 && !ceduo_arguments_given(a, "sensitivity"))
-        status = ceduo_effort_bound(&def, &q->answer.work);
+        status = ceduo_effort_bound(&def, &q->results.work);
     bool too_much = def.points == 0 && def.effort_max > 0;
     if (status == CEDUO_OK)
         status = ask_uncertainty(q, file, &def, result);

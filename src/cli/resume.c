@@ -17,7 +17,7 @@
 
 #include "base/hash.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "ceduo/status.h"
 #include "io/file.h"
 #include "messages.h"
@@ -99,36 +99,36 @@ static void make_identity(struct resume *r, const struct each *e)
 
 /* ---- files ---- */
 
-static enum exit_status refuse(const char *path, const char *why)
+static enum exit_status refuse(const char *path, const char *reason)
 {
-    ceduo_print_message(path, why);
+    ceduo_print_message(path, reason);
     return EXIT_OUTPUT;
 }
 
 /* Open a regular file. Return -1 and set *why on error. */
-static int open_regular(const char *path, const char **why)
+static int open_regular(const char *path, const char **reason)
 {
     struct stat st;
-    *why = NULL;
+    *reason = NULL;
     if (stat(path, &st) == 0 && !S_ISREG(st.st_mode)) {
-        *why = S_ISDIR(st.st_mode) ? strerror(EISDIR) : _("--resume needs a regular file, not a device or a pipe");
+        *reason = S_ISDIR(st.st_mode) ? strerror(EISDIR) : _("--resume needs a regular file, not a device or a pipe");
         return -1;
     }
     int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
     if (fd < 0)
-        *why = strerror(errno);
+        *reason = strerror(errno);
     return fd;
 }
 
 /* Open and lock the output. If another program has replaced it meanwhile, open the new file. */
 static enum exit_status open_locked(struct resume *r)
 {
-    const char *path = r->arguments->output, *why;
+    const char *path = r->arguments->output, *reason;
     for (;;) {
         struct stat own, now;
-        r->file = open_regular(path, &why);
+        r->file = open_regular(path, &reason);
         if (r->file < 0)
-            return refuse(path, why);
+            return refuse(path, reason);
         if (flock(r->file, LOCK_EX | LOCK_NB) != 0)
             return refuse(path, errno == EWOULDBLOCK ? _("another ceduo is writing to it; wait for its end, or write elsewhere")
                                                      : strerror(errno));
@@ -162,10 +162,10 @@ static bool append(int fd, size_t end, const char *bytes, size_t n)
 {
     if (lseek(fd, (off_t)end, SEEK_SET) >= 0 && ceduo_file_write_all(fd, bytes, n, NULL))
         return true;
-    int why = errno;
+    int reason = errno;
     if (ftruncate(fd, (off_t)end) != 0)
-        why = errno;
-    errno = why;
+        reason = errno;
+    errno = reason;
     return false;
 }
 
@@ -187,10 +187,10 @@ static void append_differences(const char *a, const char *b, struct text *names)
 
 static enum exit_status refuse_other(const struct resume *r, const char *names)
 {
-    LOCAL_TEXT(why);
-    ceduo_text_format(&why, _("it belongs to another run (different: %s); write elsewhere, or remove it and %s"), names,
+    LOCAL_TEXT(reason);
+    ceduo_text_format(&reason, _("it belongs to another run (different: %s); write elsewhere, or remove it and %s"), names,
                       r->side_path);
-    return refuse(r->arguments->output, ceduo_text_string(&why));
+    return refuse(r->arguments->output, ceduo_text_string(&reason));
 }
 
 /* Read a line of the side file. */
@@ -262,9 +262,9 @@ static enum exit_status compare_run(const struct resume *r, const char *output, 
     if (output_n == 0)
         return EXIT_DONE;
     if (side_n == 0) {
-        LOCAL_TEXT(why);
-        ceduo_text_format(&why, _("its side file %s is missing; write elsewhere, or remove it"), r->side_path);
-        return refuse(r->arguments->output, ceduo_text_string(&why));
+        LOCAL_TEXT(reason);
+        ceduo_text_format(&reason, _("its side file %s is missing; write elsewhere, or remove it"), r->side_path);
+        return refuse(r->arguments->output, ceduo_text_string(&reason));
     }
     LOCAL_TEXT(found);
     LOCAL_TEXT(names);
@@ -287,25 +287,25 @@ static enum exit_status read_files(struct resume *r)
     else if (good && status == EXIT_DONE)
         good = ftruncate(r->file, 0) == 0 && ftruncate(r->side, 0) == 0 &&
                append(r->side, 0, r->identity.bytes, r->identity.length);
-    int why = errno;
+    int reason = errno;
     unmap_file(output, output_n);
     unmap_file(side, side_n);
-    return good ? status : refuse(r->arguments->output, strerror(why));
+    return good ? status : refuse(r->arguments->output, strerror(reason));
 }
 
 enum exit_status ceduo_resume_open(struct resume *r, struct each *e, const struct text *head)
 {
     *r = (struct resume){.arguments = e->given, .head = head, .file = -1, .side = -1};
     LOCAL_TEXT(side);
-    const char *why;
+    const char *reason;
     ceduo_text_format(&side, "%s.resume", e->given->output);
     r->side_path = ceduo_check_memory(strdup(ceduo_text_string(&side)));
     enum exit_status status = open_locked(r);
     if (status != EXIT_DONE)
         return status;
-    r->side = open_regular(r->side_path, &why);
+    r->side = open_regular(r->side_path, &reason);
     if (r->side < 0)
-        return refuse(r->side_path, why);
+        return refuse(r->side_path, reason);
     make_identity(r, e);
     return read_files(r);
 }

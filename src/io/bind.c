@@ -204,7 +204,7 @@ static void warn_unusual(struct binder *b, const struct field *f, const struct n
     place.unusual = true;
     if (b->to->warns && !ceduo_schema_is_usual(f, value))
         ceduo_problem_at(b->to->problems, place, _("%s%s%s is unusual (usual: %s to %s%s%s); check the number and its unit"),
-                         ROUNDTRIP(value), gap, unit, ROUNDTRIP(f->shown.least), ROUNDTRIP(f->shown.most), gap, unit);
+                         ROUNDTRIP(value), gap, unit, ROUNDTRIP(f->shown.usual_min), ROUNDTRIP(f->shown.usual_max), gap, unit);
 }
 
 static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)
@@ -275,8 +275,9 @@ static void bind_map(struct binder *b, const struct object *object, const struct
 /* Bind a number, or {mean: …, spread: …, kind: …}. The rows of these keys are made from the row of the number. */
 static void bind_spread(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
 {
-    struct field rows[] = {*f, *f, WORD("kind", NAMED(NULL), MEMBER(ceduo_number, kind), 0, NULL, "", &ceduo_spread_words)};
-    const struct object parts = {rows, sizeof rows / sizeof rows[0], sizeof *to, NULL};
+    struct field rows[] = {
+        *f, *f, WORD("kind", .shown = NAMED(NULL), MEMBER(ceduo_number, kind), .meaning = "", .choices = &ceduo_spread_words)};
+    const struct object parts = OBJECT(ceduo_number, rows, NULL);
     *to = ceduo_number(to->mean);
     if (node->kind != NODE_MAP) {
         bind_number(b, f, node, &to->mean);
@@ -288,8 +289,8 @@ static void bind_spread(struct binder *b, const struct field *f, const struct no
     rows[1].key = "spread";
     rows[1].offset = offsetof(struct ceduo_number, spread);
     rows[1].flags = 0;
-    rows[1].lo = rows[1].shown.least = 0;
-    rows[1].hi = rows[1].shown.most = INFINITY;
+    rows[1].lo = rows[1].shown.usual_min = 0;
+    rows[1].hi = rows[1].shown.usual_max = INFINITY;
     rows[0].type = rows[1].type = FIELD_NUMBER;
     bind_map(b, &parts, node, to);
     if (!ceduo_schema_spread_fits(f, *to))
@@ -314,7 +315,7 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
         return;
     if (!(f->flags & FIELD_NO_MEMBER)) {
         memcpy((char *)item + f->offset, items, points ? sizeof items : sizeof items[0]);
-        memcpy((char *)item + f->beside, &n, sizeof n);
+        memcpy((char *)item + f->companion_offset, &n, sizeof n);
     }
     for (size_t i = 0; i < n; i++) {
         const struct node *entry = one ? node : node->items[i];
@@ -427,11 +428,11 @@ struct source_value {
 static const char *const source_kinds[] = {N_("measured"), N_("literature"), N_("assumed"), N_("calibrated")};
 static const struct choices source_words = {.names = source_kinds, .n = 4};
 static const struct field source_fields[] = {
-    WORD("kind", UNLABELLED, MEMBER(source_value, kind), REQUIRED, NULL, N_("measured, literature, assumed or calibrated"),
-         &source_words),
+    WORD("kind", .shown = UNLABELLED, MEMBER(source_value, kind), .flags = REQUIRED,
+         .meaning = N_("measured, literature, assumed or calibrated"), .choices = &source_words),
     TEXT("text", UNLABELLED, MEMBER(source_value, text), NO_RUN, ""),
     TEXT("text_it", UNLABELLED, MEMBER(source_value, text_it), NO_RUN, ""),
-    KIND_ROW(FIELD_WORDS, "except", UNLABELLED, LIST(source_value, except, except_count), NO_RUN, NULL, "", NULL, NULL),
+    WORD_LIST("except", UNLABELLED, LIST(source_value, except, except_count), NO_RUN, ""),
 };
 static const struct object source_object = OBJECT(source_value, source_fields, NULL);
 
@@ -525,7 +526,7 @@ static void bind_map(struct binder *b, const struct object *object, const struct
             i++;
         } else if (f) {
             size_t before = enter_key(b, entry->key);
-            const char *rival = ceduo_schema_other(object, f->key);
+            const char *rival = ceduo_schema_alternative(object, f->key);
             if (rival && ceduo_schema_field(object, rival) < f && ceduo_node_get(node, rival))
                 report(b, entry, _("%s already says this; keep one of the two"), rival);
             else

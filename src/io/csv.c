@@ -43,10 +43,10 @@ static bool is_separator(const struct csv *csv, const char *p)
     return csv->separator == ' ' ? *p == ' ' || *p == '\t' : *p == csv->separator;
 }
 
-static void mark_bad(struct csv *csv, const char *begin, const char *why)
+static void mark_bad(struct csv *csv, const char *begin, const char *reason)
 {
     if (!csv->bad)
-        ceduo_csv_error(csv, (struct csv_cell){.begin = begin}, "%s", why);
+        ceduo_csv_error(csv, (struct csv_cell){.begin = begin}, "%s", reason);
     csv->bad = true;
 }
 

@@ -153,7 +153,7 @@ bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, do
 void ceduo_csv_note_decimal(struct csv *csv);
 
 /* Report the reason why ceduo_csv_normalize_number() failed. Return false. */
-bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral why);
+bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral reason);
 
 /* Report an error at a cell of the present record. Return false. */
 bool ceduo_csv_error(const struct csv *csv, struct csv_cell cell, const char *format, ...)

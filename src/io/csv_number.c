@@ -183,7 +183,7 @@ static uint32_t find_hidden(struct csv_cell cell)
     return 0;
 }
 
-bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral why)
+bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum csv_numeral reason)
 {
     struct numeral n;
     char word[CSV_NUMERAL_CAPACITY];
@@ -192,18 +192,18 @@ bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum c
     snprintf(word, sizeof word, "%.*s", fits ? (int)cell.n : 0, cell.p);
     if (!fits)
         ceduo_csv_error(csv, cell, _("'%s' is not a number"), "\xe2\x80\xa6");
-    else if (hidden && why != CSV_NUMERAL_TWO_WAYS && why != CSV_NUMERAL_OTHER_SIGN)
+    else if (hidden && reason != CSV_NUMERAL_TWO_WAYS && reason != CSV_NUMERAL_OTHER_SIGN)
         ceduo_csv_error(csv, cell, _("the number contains the invisible character U+%04X; remove it"), (unsigned)hidden);
-    else if (why == CSV_NUMERAL_TWO_WAYS && split_number(cell, &n) == CSV_NUMERAL_GOOD)
+    else if (reason == CSV_NUMERAL_TWO_WAYS && split_number(cell, &n) == CSV_NUMERAL_GOOD)
         ceduo_csv_error(csv, cell, _("'%s' can be read in two ways: write '%.*s%s' or '%.*s%c%s'"), word,
                         (int)strcspn(n.text, ".,"), n.text, strpbrk(n.text, ".,") + 1, (int)strcspn(n.text, ".,"), n.text,
                         csv->decimal    ? csv->decimal
                         : n.sign == '.' ? ','
                                         : '.',
                         strpbrk(n.text, ".,") + 1);
-    else if (why == CSV_NUMERAL_TWO_NUMBERS)
+    else if (reason == CSV_NUMERAL_TWO_NUMBERS)
         ceduo_csv_error(csv, cell, _("'%s': two numbers in one cell; keep one"), word);
-    else if (why == CSV_NUMERAL_OTHER_SIGN)
+    else if (reason == CSV_NUMERAL_OTHER_SIGN)
         ceduo_csv_error(csv, cell, _("the decimal sign of '%s' is not the %s of line %zu; use one sign in the whole table"),
                         word, csv->decimal == ',' ? _("comma") : _("dot"), csv->decimal_line);
     else
@@ -225,9 +225,9 @@ bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, do
         return ceduo_csv_error(csv, cell, _("a value is missing; remove the line"));
     struct csv_cell bare = cell;
     ceduo_csv_split_unit(&bare, unit);
-    enum csv_numeral how = ceduo_csv_normalize_number(csv, bare, text);
-    if (how != CSV_NUMERAL_GOOD)
-        return ceduo_csv_report_number(csv, cell, how);
+    enum csv_numeral numeral = ceduo_csv_normalize_number(csv, bare, text);
+    if (numeral != CSV_NUMERAL_GOOD)
+        return ceduo_csv_report_number(csv, cell, numeral);
     bool large = ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE;
     if (!large && *value >= lo && *value <= hi)
         return true;

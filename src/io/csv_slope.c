@@ -62,9 +62,9 @@ struct reader {
     const char *several; /* names of the lines if the user must choose one; else NULL */
 };
 
-static bool reject_at(struct reader *r, const struct raw *raw, const char *why)
+static bool reject_at(struct reader *r, const struct raw *raw, const char *reason)
 {
-    return ceduo_problem(r->problems, r->csv.source, raw->line, 1, "%s", why);
+    return ceduo_problem(r->problems, r->csv.source, raw->line, 1, "%s", reason);
 }
 
 /* ---- points ---- */
@@ -239,8 +239,8 @@ static bool are_numbers(const struct csv *csv)
     double value;
     bool good = true;
     for (size_t i = 0; good && i < csv->cells_count; i++) {
-        enum csv_numeral how = ceduo_csv_normalize_number(csv, csv->cells[i], text);
-        good = how == CSV_NUMERAL_GOOD ? ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD : how != CSV_NUMERAL_NONE;
+        enum csv_numeral numeral = ceduo_csv_normalize_number(csv, csv->cells[i], text);
+        good = numeral == CSV_NUMERAL_GOOD ? ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD : numeral != CSV_NUMERAL_NONE;
     }
     return good;
 }

@@ -8,21 +8,21 @@
 #include <unistr.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
 #include "csv.h"
 #include "file.h"
 
-static bool refuse(struct csv *csv, const char *why)
+static bool refuse(struct csv *csv, const char *reason)
 {
-    return ceduo_problem_at(csv->problems, (struct problem_place){.source = csv->source, .own = true}, "%s", why);
+    return ceduo_problem_at(csv->problems, (struct problem_place){.source = csv->source, .own = true}, "%s", reason);
 }
 
 /* Return the advice for a binary file, recognized by its first bytes; NULL: not binary. */
 static const char *name_binary(const struct source *s)
 {
     static const struct {
-        const char *bytes, *why;
+        const char *bytes, *reason;
         size_t n;
     } kinds[] = {
         {"PK\3\4", N_("this is a workbook; open it and save its sheet as CSV (File, Save as)"), 4},           /* xlsx, ods */
@@ -32,7 +32,7 @@ static const char *name_binary(const struct source *s)
     };
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (s->length >= kinds[i].n && memcmp(s->bytes, kinds[i].bytes, kinds[i].n) == 0)
-            return _(kinds[i].why);
+            return _(kinds[i].reason);
     return NULL;
 }
 

@@ -78,10 +78,10 @@ const struct source *ceduo_source_copy(struct arena *arena, struct source source
     source.name = ceduo_arena_string(arena, source.name);
     source.length = strlen(source.bytes);
     source.bytes = ceduo_arena_copy(arena, source.bytes, source.length);
-    const char *beside = source.beside ? ceduo_arena_string(arena, source.beside) : NULL;
-    if (!copied || !source.name || !source.bytes || (source.beside && !beside))
+    const char *base_file = source.base_file ? ceduo_arena_string(arena, source.base_file) : NULL;
+    if (!copied || !source.name || !source.bytes || (source.base_file && !base_file))
         return NULL;
-    source.beside = beside;
+    source.base_file = base_file;
     *copied = source;
     return copied;
 }
@@ -183,12 +183,12 @@ static const char *find_in(struct arena *arena, const char *root, const char *na
     return is_file(path) ? path : NULL;
 }
 
-const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder)
+const char *ceduo_file_find(struct arena *arena, const char *name, const char *base_file, const char *folder)
 {
     if (name[0] == '/')
         return is_file(name) ? name : NULL;
-    const char *slash = beside ? strrchr(beside, '/') : NULL;
-    const char *path = slash ? ceduo_arena_format(arena, "%.*s/%s", (int)(slash - beside), beside, name) : name;
+    const char *slash = base_file ? strrchr(base_file, '/') : NULL;
+    const char *path = slash ? ceduo_arena_format(arena, "%.*s/%s", (int)(slash - base_file), base_file, name) : name;
     if (is_file(path))
         return path;
     const char *const *folders = ceduo_file_folders(arena);

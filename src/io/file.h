@@ -13,14 +13,14 @@
 /* Copy a source, with its name and its bytes, into the arena. NULL on failure. */
 const struct source *ceduo_source_copy(struct arena *arena, struct source source);
 
-/* Read a whole file of at most `max` bytes; "-": standard input. Return NULL on error. Name and bytes are in the arena, which lists
- * the file among its `sources`. */
+/* Read a whole file of at most `max` bytes; "-": standard input. Return NULL on error. Name and bytes are in the arena, which
+ * lists the file among its `sources`. */
 const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t max, struct problems *problems);
 
-/* Find a file. An absolute name is used as it is; another is relative to the file that names it (`beside`, may be NULL). Then the
- * user's data folder, the installed folder and the source tree are searched, also in `folder` (scenes, slopes, stands) and with
- * .yaml appended. Return a path in the arena; NULL: none. */
-const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder);
+/* Find a file. An absolute name is used as it is; another is relative to the file that names it (`base_file`, may be NULL).
+ * Then the user's data folder, the installed folder and the source tree are searched, also in `folder` (scenes, slopes, stands)
+ * and with .yaml appended. Return a path in the arena; NULL: none. */
+const char *ceduo_file_find(struct arena *arena, const char *name, const char *base_file, const char *folder);
 
 /* Return the name of a file without its folder. */
 const char *ceduo_file_name(const char *path);
@@ -49,7 +49,8 @@ struct pending_file {
     char *temporary; /* TARGET.ceduo-tmp-…; NULL: none, or renamed */
 };
 
-/* Write the temporary file. The first four members must be set. Return false with errno set. Call ceduo_file_abort() even then. */
+/* Write the temporary file. The first four members must be set. Return false with errno set. Call ceduo_file_abort() even then.
+ * */
 bool ceduo_file_prepare(struct pending_file *file);
 /* Rename it to its target. Return false with errno set. */
 bool ceduo_file_commit(struct pending_file *file);

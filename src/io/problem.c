@@ -3,7 +3,7 @@
 
 #include "base/hash.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
 
 #define LINE_MAX    100  /* columns shown of a source line */
@@ -11,14 +11,14 @@
 #define TAIL        200
 #define COUNTED     1000
 
-bool ceduo_source_next(const struct source *s, size_t *at, size_t *from, size_t *to)
+bool ceduo_source_next(const struct source *s, size_t *position, size_t *from, size_t *to)
 {
-    if (*at >= s->length)
+    if (*position >= s->length)
         return false;
-    const char *end = memchr(s->bytes + *at, '\n', s->length - *at);
-    *from = *at;
+    const char *end = memchr(s->bytes + *position, '\n', s->length - *position);
+    *from = *position;
     *to = end ? (size_t)(end - s->bytes) : s->length;
-    *at = *to + 1;
+    *position = *to + 1;
     if (*to > *from && s->bytes[*to - 1] == '\r')
         --*to;
     return true;
@@ -27,23 +27,23 @@ bool ceduo_source_next(const struct source *s, size_t *at, size_t *from, size_t 
 /* Find line `line`, from 1. Return false if the source has fewer lines. */
 static bool find_line(const struct source *s, size_t line, size_t *from, size_t *to)
 {
-    size_t at = 0, i = 0;
-    while (i < line && ceduo_source_next(s, &at, from, to))
+    size_t position = 0, i = 0;
+    while (i < line && ceduo_source_next(s, &position, from, to))
         i++;
     return i == line;
 }
 
 size_t ceduo_source_byte(const struct source *s, size_t line, size_t column)
 {
-    size_t at, end;
-    if (!find_line(s, line, &at, &end))
+    size_t position, end;
+    if (!find_line(s, line, &position, &end))
         return s->length;
-    at += line == 1 ? ceduo_source_mark(s) : 0;
-    for (size_t c = 1; c < column && at < s->length; c++)
+    position += line == 1 ? ceduo_source_mark(s) : 0;
+    for (size_t c = 1; c < column && position < s->length; c++)
         do
-            at++;
-        while (at < s->length && ceduo_utf8_is_continuation(s->bytes[at]));
-    return at;
+            position++;
+        while (position < s->length && ceduo_utf8_is_continuation(s->bytes[position]));
+    return position;
 }
 
 /* Print a part of the line, with a caret below the column if it is within. Print only the start of a foreign line. */
@@ -55,24 +55,24 @@ static void print_line(struct text *out, const struct source *s, size_t line, si
     size_t first = column > max && !s->foreign ? column - max / 2 : 1;
     max = s->foreign && line > 1 ? 0 : max;
     size_t mark = from == 0 ? ceduo_source_mark(s) : 0;
-    size_t at = from + mark, c = 1;
-    for (; c < first && at < to; c++)
-        at += ceduo_utf8_step(s->bytes + at);
+    size_t position = from + mark, c = 1;
+    for (; c < first && position < to; c++)
+        position += ceduo_utf8_step(s->bytes + position);
     LOCAL_TEXT(caret);
     ceduo_text_append(out, "  ");
     ceduo_text_append_escaped_n(out, s->bytes, first == 1 ? mark : 0);
     ceduo_text_append(&caret, "  ");
-    for (; at < to && c < first + max; c++) {
-        size_t before = out->length, n = ceduo_utf8_step(s->bytes + at);
-        if (s->bytes[at] == '\t')
+    for (; position < to && c < first + max; c++) {
+        size_t before = out->length, n = ceduo_utf8_step(s->bytes + position);
+        if (s->bytes[position] == '\t')
             ceduo_text_append_char(out, ' ');
         else
-            ceduo_text_append_escaped_n(out, s->bytes + at, n);
+            ceduo_text_append_escaped_n(out, s->bytes + position, n);
         for (size_t w = c < column && out->bytes ? ceduo_utf8_width(out->bytes + before) : 0; w > 0; w--)
             ceduo_text_append_char(&caret, ' ');
-        at += n;
+        position += n;
     }
-    if (s->foreign && at < to)
+    if (s->foreign && position < to)
         ceduo_text_format(out, "\xe2\x80\xa6 %s", _("(nothing says that this file is one of ceduo's: no more of it is shown)"));
     ceduo_text_append_char(out, '\n');
     ceduo_text_append(&caret, "^\n");
@@ -146,7 +146,7 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
     const struct source *source = place.source;
     struct problem_list *list = place.unusual ? &problems->unusual : &problems->wrong;
     LOCAL_TEXT(words);
-    LOCAL_TEXT(where);
+    LOCAL_TEXT(location);
     LOCAL_TEXT(path);
     LOCAL_TEXT(message);
     LOCAL_TEXT(hint);
@@ -165,10 +165,10 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
     print_cut(&message, ceduo_text_string(&words));
     print_cut(&path, place.path ? place.path : "");
     if (source)
-        ceduo_text_append_escaped(&where, source->name);
+        ceduo_text_append_escaped(&location, source->name);
     if (source && place.line > 0 && !source->is_cell)
-        ceduo_text_format(&where, ":%zu:%zu", place.line, place.column);
-    struct problem p = {.place = ceduo_text_string(&where),
+        ceduo_text_format(&location, ":%zu:%zu", place.line, place.column);
+    struct problem p = {.place = ceduo_text_string(&location),
                         .path = ceduo_text_string(&path),
                         .message = ceduo_text_string(&message),
                         .kind = hash_kind(source, place.path ? place.path : "", ceduo_text_string(&words))};

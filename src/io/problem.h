@@ -14,10 +14,10 @@ struct source {
     const struct source *before; /* source read before it into the same memory */
     const char *bytes;           /* followed by a NUL */
     size_t length;
-    bool is_option;     /* a --set: its errors are usage errors */
-    bool is_cell;       /* a cell of --each: its errors are bad input; it has no line of its own */
-    const char *beside; /* of an option: file whose folder is searched for its paths */
-    bool foreign;       /* not recognized as a file of ceduo: its text may be private */
+    bool is_option;        /* a --set: its errors are usage errors */
+    bool is_cell;          /* a cell of --each: its errors are bad input; it has no line of its own */
+    const char *base_file; /* of an option: file whose folder is searched for its paths */
+    bool foreign;          /* not recognized as a file of ceduo: its text may be private */
 };
 
 #define CEDUO_FOREIGN_MAX 20 /* columns of a foreign file that are shown */
@@ -29,7 +29,7 @@ static inline size_t ceduo_source_mark(const struct source *source)
 }
 
 /* Set the range of the line at *at, without its end, and move *at to the next line. Return false at the end. */
-bool ceduo_source_next(const struct source *source, size_t *at, size_t *from, size_t *to);
+bool ceduo_source_next(const struct source *source, size_t *position, size_t *from, size_t *to);
 
 /* Return the offset of a line and column (from 1, in characters); the length of the source if it has no such line. */
 size_t ceduo_source_byte(const struct source *source, size_t line, size_t column);

@@ -58,7 +58,7 @@ static struct node *replace_node(struct arena *arena, const struct node *found, 
 const char *ceduo_resolve_path(struct arena *arena, const struct node *node, const char *folder)
 {
     const struct source *s = node->source;
-    const char *path = ceduo_file_find(arena, node->text, s->is_option ? s->beside : s->name, folder);
+    const char *path = ceduo_file_find(arena, node->text, s->is_option ? s->base_file : s->name, folder);
     if (!path && s->is_option)
         path = ceduo_file_find(arena, node->text, NULL, folder);
     return path;
@@ -77,13 +77,13 @@ static const struct node *copy_broken(struct resolver *r, const struct node *nod
     return copy;
 }
 
-/* Remove the translation of a replaced text from a mapping, unless `by` (may be NULL) has a new one. NULL on failure. */
+/* Remove the translation of a replaced text from a mapping, unless `changes` (may be NULL) has a new one. NULL on failure. */
 static const struct node *without_translation(struct arena *arena, const struct node *map, const char *key,
-                                              const struct node *by)
+                                              const struct node *changes)
 {
     LOCAL_TEXT(name);
     ceduo_text_format(&name, "%s_it", key);
-    return ceduo_node_get(by, ceduo_text_string(&name)) ? map : ceduo_node_without(arena, map, ceduo_text_string(&name));
+    return ceduo_node_get(changes, ceduo_text_string(&name)) ? map : ceduo_node_without(arena, map, ceduo_text_string(&name));
 }
 
 /* Merge the entries of `changes` into `base`. Mappings are merged, other values replaced. */
@@ -301,11 +301,11 @@ const struct node *ceduo_resolve_at(const struct node *root, const char *path)
 static const struct node *set_in(struct resolver *s, const struct field *f, const struct object *object,
                                  const struct node *node, size_t offset);
 
-static const struct node *fail_at(struct resolver *s, const struct path_step *step, const char *what)
+static const struct node *fail_at(struct resolver *s, const struct path_step *step, const char *problem)
 {
     LOCAL_TEXT(word);
     ceduo_text_append_n(&word, step->p, step->n);
-    ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", ceduo_text_string(&word), what);
+    ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", ceduo_text_string(&word), problem);
     return NULL;
 }
 
@@ -404,7 +404,7 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
     s->source_done |= keeps_source(s, f, key, last ? child : NULL);
     child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, offset);
     map = child ? mark_source(s, map, step) : NULL;
-    const char *rival = f && f->type == FIELD_NUMBER ? ceduo_schema_other(object, key) : NULL;
+    const char *rival = f && f->type == FIELD_NUMBER ? ceduo_schema_alternative(object, key) : NULL;
     if (map && rival)
         map = ceduo_node_without(s->arena, map, rival);
     map = map && last ? without_translation(s->arena, map, key, NULL) : map;

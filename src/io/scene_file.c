@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "file.h"
 #include "validator.h"
 
@@ -66,7 +66,7 @@ static struct source name_change(const struct scene_sets *sets, size_t i)
 
 static bool apply_change(struct scene_file *file, struct source set, struct problems *problems)
 {
-    set.beside = file->path;
+    set.base_file = file->path;
     const struct source *source = ceduo_source_copy(&file->arena, set);
     if (!source)
         return false;

@@ -8,7 +8,7 @@
 #include <strings.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "file.h"
 #include "survey_reader.h"
 

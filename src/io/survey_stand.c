@@ -34,10 +34,10 @@ static double rounded(double value)
 #define ROUNDED(value) ROUNDTRIP(rounded(value))
 
 /* `end`: text after the source. */
-static void print_source(struct text *out, bool assumed, const char *what, const char *end)
+static void print_source(struct text *out, bool assumed, const char *origin, const char *end)
 {
     ceduo_text_format(out, "source: {kind: %s, text: ", assumed ? "assumed" : "measured");
-    ceduo_emit_scalar(out, what, true);
+    ceduo_emit_scalar(out, origin, true);
     ceduo_text_format(out, "}%s", end);
 }
 
@@ -147,7 +147,7 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
         const struct ceduo_survey_class *c = &w->answer->classes[i];
         if (trees ? !is_tree(c->kind) : c->kind != CEDUO_SURVEY_SHOOT)
             continue;
-        LOCAL_TEXT(what);
+        LOCAL_TEXT(origin);
         bool given = needs_volume(w, c);
         ceduo_text_format(w->out, "%s  - {per_ha: %s, dbh_m: %s", n++ ? "" : key, ROUNDED(c->per_ha.mean), ROUNDED(c->dbh));
         if (c->dbh_sd > 0) /* a stand accepts at most dbh_m; two thin stems may have more */
@@ -155,17 +155,17 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
         ceduo_text_format(w->out, ", height_m: %s", ROUNDED(c->height));
         if (given)
             ceduo_text_format(w->out, ", volume_m3: %s", ROUNDED(c->volume));
-        ceduo_text_format(&what, _("%s of %.0f to %.0f cm, n = %zu"), _(kinds[c->kind]), c->from * 100,
+        ceduo_text_format(&origin, _("%s of %.0f to %.0f cm, n = %zu"), _(kinds[c->kind]), c->from * 100,
                           (c->from + CEDUO_SURVEY_CLASS) * 100, c->stems);
         if (w->one_plot)
-            ceduo_text_append(&what, _("; one plot, no standard error"));
+            ceduo_text_append(&origin, _("; one plot, no standard error"));
         if (h->missing > 0) /* the comments above describe the estimated heights */
-            ceduo_text_format(&what, _("; heights measured: %zu of %zu"), h->given, h->given + h->missing);
+            ceduo_text_format(&origin, _("; heights measured: %zu of %zu"), h->given, h->given + h->missing);
         if (c->form_factor > 0)
-            ceduo_text_format(&what, _("; volume of %zu by form factor"), c->form_factor);
+            ceduo_text_format(&origin, _("; volume of %zu by form factor"), c->form_factor);
         ceduo_text_append(w->out, ",\n     ");
         print_source(w->out, w->one_plot || h->from >= CEDUO_HEIGHTS_MEAN || (given && c->form_factor > 0),
-                     ceduo_text_string(&what), "}\n");
+                     ceduo_text_string(&origin), "}\n");
     }
 }
 
@@ -248,7 +248,7 @@ static void print_scaled(struct text *out, const struct node *list, double sum)
 }
 
 /* Print a mapping with a source of its own. A cut retains the counted number of standards. */
-static void print_assumed(const struct writer *w, const char *key, const struct node *map, const char *what)
+static void print_assumed(const struct writer *w, const char *key, const struct node *map, const char *origin)
 {
     ceduo_text_format(w->out, "%s:\n", key);
     for (size_t i = 0; i < map->n; i++) {
@@ -264,7 +264,7 @@ static void print_assumed(const struct writer *w, const char *key, const struct 
         ceduo_text_append_char(w->out, '\n');
     }
     ceduo_text_append(w->out, "  ");
-    print_source(w->out, true, what, "\n");
+    print_source(w->out, true, origin, "\n");
 }
 
 /* Print growth and cutting, which a single survey cannot show. */
@@ -272,7 +272,7 @@ static void print_future(const struct writer *w)
 {
     LOCAL_ARENA(arena);
     LOCAL_TEXT(name);
-    LOCAL_TEXT(what);
+    LOCAL_TEXT(origin);
     const struct node *stand = find_shipped(&arena, w->answer, &name);
     const struct node *growth = ceduo_node_get(stand, "growth"), *cutting = ceduo_node_get(stand, "cutting");
     if (!growth || !cutting) {
@@ -283,9 +283,9 @@ static void print_future(const struct writer *w)
                       _("# Growth and cutting are assumed, as in the shipped stand '%s'.\n# A cut leaves the counted number of "
                         "standards. Check rotation_years and stay_per_ha; a selection coppice has cohorts: 3.\n"),
                       ceduo_text_string(&name));
-    ceduo_text_format(&what, _("as in the shipped stand '%s', not from this survey"), ceduo_text_string(&name));
-    print_assumed(w, "growth", growth, ceduo_text_string(&what));
-    print_assumed(w, "cutting", cutting, ceduo_text_string(&what));
+    ceduo_text_format(&origin, _("as in the shipped stand '%s', not from this survey"), ceduo_text_string(&name));
+    print_assumed(w, "growth", growth, ceduo_text_string(&origin));
+    print_assumed(w, "cutting", cutting, ceduo_text_string(&origin));
 }
 
 /* ---- uncertainty ---- */
@@ -336,7 +336,7 @@ static void print_uncertainties(const struct writer *w)
 static void print_stand(const struct writer *w)
 {
     const struct ceduo_survey_result *a = w->answer;
-    LOCAL_TEXT(what);
+    LOCAL_TEXT(origin);
     print_comments(w);
     bool stems = a->stools.mean > 0 || a->per_ha[CEDUO_SURVEY_STANDARD].mean + a->per_ha[CEDUO_SURVEY_TREE].mean > 0;
     ceduo_text_append(w->out, "ceduo: stand/1\nname: ");
@@ -368,8 +368,8 @@ static void print_stand(const struct writer *w)
     }
     if (a->stools.mean > 0)
         print_future(w);
-    ceduo_text_format(&what, _("survey of %zu plots, %.0f m2 of the map"), w->file->survey.plots_count, w->area);
-    print_source(w->out, false, ceduo_text_string(&what), "\n");
+    ceduo_text_format(&origin, _("survey of %zu plots, %.0f m2 of the map"), w->file->survey.plots_count, w->area);
+    print_source(w->out, false, ceduo_text_string(&origin), "\n");
     print_uncertainties(w);
 }
 

@@ -162,7 +162,7 @@ static void walk(struct input_finder *f, const struct object *object, const stru
         if (field->flags & FIELD_OR_NONE)
             continue;
         ceduo_text_format(&f->path, "%s%s", before > 0 ? "." : "", field->key);
-        size_t here = f->path.length;
+        size_t field_end = f->path.length;
         if (!list && !group)
             add_value(f, field, node);
         else if (list ? field->flags & FIELD_SCALAR_OK && node && node->kind == NODE_MAP
@@ -171,7 +171,7 @@ static void walk(struct input_finder *f, const struct object *object, const stru
         for (size_t k = 0; list && node && node->kind == NODE_LIST && k < node->n; k++) {
             ceduo_text_format(&f->path, "[%zu]", k);
             walk(f, field->object, node->items[k]);
-            ceduo_text_cut(&f->path, here);
+            ceduo_text_cut(&f->path, field_end);
         }
         ceduo_text_cut(&f->path, before);
     }

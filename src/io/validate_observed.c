@@ -167,7 +167,7 @@ static bool find_columns(const struct entry *e, struct table *t)
     ceduo_csv_find_head(csv, heads, COLUMNS, t->columns);
     csv->source->foreign = t->columns[VALUES] == CEDUO_CSV_NOT_FOUND; /* a column that the scene names proves nothing */
     size_t *column = &t->columns[e->values->column ? NAMED : VALUES];
-    bool stops = e->kind_row->where == CEDUO_WHERE_AT_REST && csv->heads_count > 0 && *column < CEDUO_CSV_DUPLICATE;
+    bool stops = e->kind_row->location == CEDUO_LOCATION_AT_REST && csv->heads_count > 0 && *column < CEDUO_CSV_DUPLICATE;
     bool map = stops && !e->values->column && t->columns[MAP] != CEDUO_CSV_NOT_FOUND &&
                ceduo_csv_matches(csv->heads[*column].p, csv->heads[*column].n, "x|x_m");
     if (*column == CEDUO_CSV_NOT_FOUND && !e->values->column && csv->heads_count == 1) {
@@ -286,7 +286,7 @@ static bool check_each(const struct entry *e)
 {
     struct validator *v = e->v;
     const struct observed_values *values = e->values;
-    bool stops = e->kind_row->where == CEDUO_WHERE_AT_REST;
+    bool stops = e->kind_row->location == CEDUO_LOCATION_AT_REST;
     for (size_t i = 0; i < values->values_count; i++) {
         double x = values->values[i];
         const char *path = ceduo_node_get(e->node, "csv") ? ceduo_asprintf(v, "%s.csv", e->path)
@@ -306,7 +306,7 @@ static bool check_each(const struct entry *e)
 static bool check_released(const struct entry *e)
 {
     const struct observed_values *values = e->values;
-    unsigned long long observed = e->kind_row->list ? values->values_count : values->count, released = values->of;
+    unsigned long long observed = e->kind_row->list ? values->values_count : values->count, released = values->released_count;
     /* untaken: complaint */
     return released == 0 || observed <= released ||
            ceduo_reject(e->v, e->path, "of", _("%llu observed, but only %llu released; correct one"), observed, released);
@@ -316,22 +316,23 @@ static bool check_values(const struct entry *e)
 {
     const struct observed_values *values = e->values;
     double last = ceduo_number_max(e->release->x) + e->v->origin;
-    switch (e->kind_row->where) { /* untaken: table */
-    case CEDUO_WHERE_AT_REST:
+    switch (e->kind_row->location) { /* untaken: table */
+    case CEDUO_LOCATION_AT_REST:
         return ceduo_check_on_slope(e->v, e->path, "seen_from_m", values->seen_from) && check_each(e) && check_released(e);
-    case CEDUO_WHERE_AT_PLACE:
+    case CEDUO_LOCATION_AT_PLACE:
         return (!e->kind_row->list || check_form(e)) && ceduo_check_on_slope(e->v, e->path, "x_m", values->x) &&
                /* untaken: complaint */
                (values->x > last || ceduo_reject(e->v, e->path, "x_m", _("%s must lie beyond the release (%s m)"),
                                                  ROUNDTRIP(values->x), ROUNDTRIP(last))) &&
                (e->kind_row->list ? check_each(e) : check_released(e));
-    case CEDUO_WHERE_ON_STEMS: /* a rock may hit several stems, so no check of the number released */
+    case CEDUO_LOCATION_ON_STEMS: /* a rock may hit several stems, so no check of the number released */
         return ceduo_check_stretch(e->v, e->path, values->from, values->to) && check_each(e);
-    case CEDUO_WHERE_LARGEST:
+    case CEDUO_LOCATION_LARGEST:
         return check_form(e) && check_each(e);
-    case CEDUO_WHERE_ALONG:
+    case CEDUO_LOCATION_ALONG:
         return check_form(e) && check_each(e) &&
-               ceduo_check_stretch(e->v, ceduo_asprintf(e->v, "%s.on_the_way", e->row_path), e->row->way_from, e->row->way_to);
+               ceduo_check_stretch(e->v, ceduo_asprintf(e->v, "%s.on_the_way", e->row_path), e->row->stretch_from,
+                                   e->row->stretch_to);
     }
     return false;
 }
@@ -342,21 +343,21 @@ static bool check_values(const struct entry *e)
 static void set_name(const struct entry *e, struct ceduo_observation *o)
 {
     const struct field *field = ceduo_schema_row(e->path); /* NULL without memory */
-    const char *path = e->kind_row->path, *what = field ? _(field->shown.label) : path;
-    double x = e->values->x, from = e->row->way_from, to = e->row->way_to;
+    const char *path = e->kind_row->path, *label = field ? _(field->shown.label) : path;
+    double x = e->values->x, from = e->row->stretch_from, to = e->row->stretch_to;
     if (e->row->name) {
         o->name_given = e->row->name;
         o->name = ceduo_in_language(e->row->name, e->row->name_it);
-    } else if (e->kind_row->where == CEDUO_WHERE_AT_PLACE) {
+    } else if (e->kind_row->location == CEDUO_LOCATION_AT_PLACE) {
         o->name_given = ceduo_asprintf(e->v, "%s at %s m", path, ROUNDTRIP(x));
-        o->name = ceduo_asprintf(e->v, _("%s at %s m"), what, ceduo_number_localize(ROUNDTRIP(x)));
-    } else if (e->kind_row->where == CEDUO_WHERE_ALONG) {
+        o->name = ceduo_asprintf(e->v, _("%s at %s m"), label, ceduo_number_localize(ROUNDTRIP(x)));
+    } else if (e->kind_row->location == CEDUO_LOCATION_ALONG) {
         o->name_given = ceduo_asprintf(e->v, "%s %s-%s m", path, ROUNDTRIP(from), ROUNDTRIP(to));
-        o->name = ceduo_asprintf(e->v, "%s %s\xe2\x80\x93%s m", what, ceduo_number_localize(ROUNDTRIP(from)),
+        o->name = ceduo_asprintf(e->v, "%s %s\xe2\x80\x93%s m", label, ceduo_number_localize(ROUNDTRIP(from)),
                                  ceduo_number_localize(ROUNDTRIP(to)));
     } else {
         o->name_given = path;
-        o->name = what;
+        o->name = label;
     }
 }
 
@@ -364,7 +365,7 @@ static void set_name(const struct entry *e, struct ceduo_observation *o)
 static void set_observation(const struct entry *e, struct ceduo_observation *o)
 {
     struct observed_values *values = e->values;
-    bool along = e->kind_row->where == CEDUO_WHERE_ALONG, at_rest = e->kind_row->where == CEDUO_WHERE_AT_REST;
+    bool along = e->kind_row->location == CEDUO_LOCATION_ALONG, at_rest = e->kind_row->location == CEDUO_LOCATION_AT_REST;
     double scale = ceduo_observed_quantity(e->kind)->scale, origin = e->v->origin;
     for (size_t i = 0; i < values->values_count; i++)
         values->values[i] = values->values[i] * scale - (at_rest ? origin : 0);
@@ -372,14 +373,14 @@ static void set_observation(const struct entry *e, struct ceduo_observation *o)
     o->kind = e->kind;
     set_name(e, o);
     o->x = values->x - origin;
-    o->from = (along ? e->row->way_from : at_rest ? values->seen_from : values->from) - origin;
-    o->to = (along ? e->row->way_to : values->to) - origin;
+    o->from = (along ? e->row->stretch_from : at_rest ? values->seen_from : values->from) - origin;
+    o->to = (along ? e->row->stretch_to : values->to) - origin;
     o->values = values->values_count > 0 ? values->values : NULL;
     o->n = values->values_count > 0 ? values->values_count : (size_t)values->n;
     o->mean = values->mean * scale;
     o->sd = values->sd * scale;
     o->count = values->count;
-    o->released_count = values->of;
+    o->released_count = values->released_count;
     o->share_seen = values->share_seen;
 }
 

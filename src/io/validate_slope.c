@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "csv.h"
 #include "scene/ranges.h"
 #include "scene_file.h"

@@ -69,10 +69,10 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
     if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
         ceduo_reject(v, path, "system", _("'bare' has no stems; name the system, or remove the stems"));
     for (size_t i = 0; i < s->shoots_count; i++) { /* per_ha or per_stool is required */
-        const char *here = ceduo_asprintf(v, "%s.shoots[%zu]", path, i);
-        bool each = is_written(v, here, "per_stool");
-        if (!each && is_missing(v, s->shoots[i].per_ha, here, ".per_ha") && ceduo_is_valid(v, "%s.per_stool", here))
-            ceduo_reject(v, here, "", _("'per_ha' or 'per_stool' is missing; give the number of shoots"));
+        const char *item_path = ceduo_asprintf(v, "%s.shoots[%zu]", path, i);
+        bool each = is_written(v, item_path, "per_stool");
+        if (!each && is_missing(v, s->shoots[i].per_ha, item_path, ".per_ha") && ceduo_is_valid(v, "%s.per_stool", item_path))
+            ceduo_reject(v, item_path, "", _("'per_ha' or 'per_stool' is missing; give the number of shoots"));
         else if (each && !is_written(v, path, "stools.per_ha") && ceduo_is_valid(v, "%s.stools.per_ha", path))
             ceduo_reject(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
     }
@@ -124,10 +124,10 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
 {
     for (size_t i = 0; i < option->belts_count; i++) {
         struct ceduo_belt *belt = &option->belts[i];
-        const char *here = ceduo_asprintf(v, "%s[%zu]", path, i), *stand = ceduo_asprintf(v, "%s.stand", here);
+        const char *item_path = ceduo_asprintf(v, "%s[%zu]", path, i), *stand = ceduo_asprintf(v, "%s.stand", item_path);
         const double from = belt->from_given, to = belt->to_given, before = i > 0 ? belt[-1].to_given : -INFINITY;
-        if (ceduo_check_stretch(v, here, from, to) && from < before)
-            ceduo_reject(v, here, "from_m",
+        if (ceduo_check_stretch(v, item_path, from, to) && from < before)
+            ceduo_reject(v, item_path, "from_m",
                          _("belts must not overlap, but this one begins at %s and the previous one ends at %s"),
                          ROUNDTRIP(from), ROUNDTRIP(before));
         belt->from = belt->from_given - v->origin;

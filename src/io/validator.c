@@ -140,7 +140,7 @@ static void check_rules(struct validator *v, const char *list, const struct cedu
         const char *path = ceduo_asprintf(v, "rules.%s[%zu]", list, i);
         if (!ceduo_is_valid_below(v, path))
             continue;
-        if (items[i].most < items[i].least)
+        if (items[i].max < items[i].min)
             ceduo_reject(v, path, "", _("the maximum is below the minimum; correct one"));
         for (size_t k = 0; k < items[i].species_count; k++)
             if (ceduo_species_find(items[i].species[k]) < 0)

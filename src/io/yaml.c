@@ -7,7 +7,7 @@
 #include <yaml.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
 #include "node.h"
 

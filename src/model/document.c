@@ -6,19 +6,19 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "io/file.h"
 
 /* ---- states ---- */
 
-static void push_state(struct document *d, const struct node *root, const char *what)
+static void push_state(struct document *d, const struct node *root, const char *edit_name)
 {
     if (d->current + 1 < d->count && d->saved > d->current && d->saved < d->count)
         d->saved = SIZE_MAX; /* redo can no longer reach the state on disk */
     if (d->count > 0)
         d->count = d->current + 1;
     d->states = ceduo_grow(d->states, d->count, &d->capacity, sizeof *d->states);
-    d->states[d->count] = (struct document_state){root, what};
+    d->states[d->count] = (struct document_state){root, edit_name};
     d->current = d->count++;
 }
 
@@ -53,7 +53,7 @@ static bool adopt(struct document *d, const struct node *root)
     return good;
 }
 
-bool ceduo_document_commit(struct document *d, const struct node *root, const char *what)
+bool ceduo_document_commit(struct document *d, const struct node *root, const char *edit_name)
 {
     const struct node *before = d->file.root;
     if (!adopt(d, root))
@@ -62,7 +62,7 @@ bool ceduo_document_commit(struct document *d, const struct node *root, const ch
         d->file.root = before;
         return true;
     }
-    push_state(d, d->file.root, ceduo_arena_string(&d->file.arena, what));
+    push_state(d, d->file.root, ceduo_arena_string(&d->file.arena, edit_name));
     trim_history(d);
     ceduo_document_write_recovery(d);
     return true;
@@ -92,8 +92,8 @@ bool ceduo_document_unsaved(const struct document *d)
 const struct node *ceduo_document_parse(struct document *d, const char *name, const char *text)
 {
     /* copy of the path: saving elsewhere must not change how typed paths are resolved */
-    const struct source *source =
-        ceduo_source_copy(&d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .beside = d->path});
+    const struct source *source = ceduo_source_copy(
+        &d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .base_file = d->path});
     return ceduo_yaml_read(&d->file.arena, source, &d->problems);
 }
 

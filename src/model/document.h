@@ -20,7 +20,7 @@ struct recovery_copy {
 /* One state of the document. Trees share common nodes. */
 struct document_state {
     const struct node *root;
-    const char *what; /* the edit that made this state, for the undo message */
+    const char *edit_name; /* the edit that made this state, for the undo message */
 };
 
 struct document {
@@ -66,7 +66,7 @@ struct changes {
 void ceduo_changes_add(struct changes *changes, enum change_kind kind, const char *path, const char *value);
 void ceduo_changes_set(struct changes *changes, const char *path, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-bool ceduo_changes_apply(const struct changes *changes, const char *what);
+bool ceduo_changes_apply(const struct changes *changes, const char *edit_name);
 
 /* Duplicate item `list[index]`; an option gets a new name. Then make the changes (may be NULL). */
 bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const struct changes *changes);
@@ -147,7 +147,7 @@ char *ceduo_recovery_text(const char *file); /* NULL on failure; caller frees */
 /* ---- for the files that implement the document ---- */
 
 /* Make `root` the scene and add it as a state. Return false and change nothing if `root` is not a valid scene. */
-bool ceduo_document_commit(struct document *document, const struct node *root, const char *what);
+bool ceduo_document_commit(struct document *document, const struct node *root, const char *edit_name);
 
 /* Parse YAML that was typed or read; `name` appears in messages. NULL on failure, with the reason in document->problems. */
 const struct node *ceduo_document_parse(struct document *document, const char *name, const char *text);

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "io/file.h"
 
 /* ---- an edit under way ---- */
@@ -25,9 +25,9 @@ static struct edit begin_edit(struct document *d)
     return (struct edit){d, &d->file.arena, d->file.root};
 }
 
-static bool commit_edit(const struct edit *e, const char *what)
+static bool commit_edit(const struct edit *e, const char *edit_name)
 {
-    return e->root && ceduo_document_commit(e->d, e->root, what);
+    return e->root && ceduo_document_commit(e->d, e->root, edit_name);
 }
 
 const struct node *ceduo_document_node(const struct document *d, const char *path)
@@ -220,11 +220,11 @@ void ceduo_changes_set(struct changes *c, const char *path, const char *format, 
     va_end(args);
 }
 
-bool ceduo_changes_apply(const struct changes *c, const char *what)
+bool ceduo_changes_apply(const struct changes *c, const char *edit_name)
 {
     struct edit e = begin_edit(c->document);
     apply_changes(&e, "", c);
-    return commit_edit(&e, what);
+    return commit_edit(&e, edit_name);
 }
 
 /* ---- values ---- */

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "io/file.h"
 
 /* ---- the file on disk ---- */

@@ -43,7 +43,7 @@ static struct range range_around(const struct scene_file *file, const char *key)
     double lo = INFINITY, hi = -INFINITY;
     for (size_t i = 0; i + 1 < file->scene.slope.vertices; i++) {
         struct ceduo_segment one = file->scene.slope.segments[i];
-        struct value v = {.field = field, .at = (char *)&one + field->offset};
+        struct value v = {.field = field, .member = (char *)&one + field->offset};
         lo = fmin(lo, ceduo_value_get(&v));
         hi = fmax(hi, ceduo_value_get(&v));
     }
@@ -266,7 +266,7 @@ bool ceduo_apply_fit(struct document *d, const struct fit_values *fit)
             const char *place = fit->inputs[i].places[k];
             struct value v;
             bool spread = ceduo_value_find(&d->file.scene, place, &v) && v.field->type == FIELD_SPREAD &&
-                          ((const struct ceduo_number *)v.at)->spread > 0;
+                          ((const struct ceduo_number *)v.member)->spread > 0;
             ceduo_changes_add(&c, CHANGE_SET, spread ? ceduo_arena_format(&d->file.arena, "%s.mean", place) : place,
                               ROUNDTRIP(fit->answer->parameters[i].best));
         }

@@ -14,7 +14,7 @@
 #include "base/clock.h"
 #include "base/hash.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/text.h"
 #include "ceduo/key.h"
 #include "study/effort.h"
@@ -282,7 +282,7 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
     if (def.points == 0) /* never skip: the screen must not wait */
         def.points = def.points_max = CEDUO_UNCERTAINTY_MIN;
     def.effort_max = 0;
-    def.alone = u->level == 0;
+    def.one_option = u->level == 0;
     return ceduo_uncertainty_compute(&def, &u->answer);
 }
 
@@ -335,10 +335,10 @@ static void publish_progress(void *context, const struct ceduo_calibration_state
 static enum ceduo_status step_fit(struct jobs *q, struct job *job, void **result)
 {
     struct publisher publisher = {.queue = q, .job = job};
-    const struct ceduo_calibration_def how = {
+    const struct ceduo_calibration_def def = {
         .threads = q->threads, .cancel = &q->cancel, .progress = publish_progress, .context = &publisher};
     struct fit *fit = *result = ceduo_check_memory(calloc(1, sizeof *fit));
-    return ceduo_fit_compute(&job->file, &job->fit, &how, fit);
+    return ceduo_fit_compute(&job->file, &job->fit, &def, fit);
 }
 
 static const struct kind kinds[JOB_KINDS] = {

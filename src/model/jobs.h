@@ -7,7 +7,7 @@
 #include "fit.h"
 #include "runs.h"
 #include "search.h"
-#include "study/seen.h"
+#include "study/observed_stops.h"
 
 /* The queue of jobs: one thread computes on a snapshot of the scene. A job has levels from coarse to fine; the thread takes
  * the coarsest step of all jobs. A new job replaces that kind and interrupts the running step. */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/must.h"
+#include "base/oom.h"
 
 bool ceduo_live_create(struct live *l, unsigned threads)
 {

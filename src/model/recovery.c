@@ -15,7 +15,7 @@
 
 #include "base/hash.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "io/file.h"
 
 #define UNSAVED "# unsaved work on " /* start of the first line of a copy */

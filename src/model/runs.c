@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/hash.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "ceduo/key.h"
 
 struct runs {
@@ -39,7 +39,7 @@ static enum ceduo_status set_pool(struct runs *r, const struct ceduo_scene *scen
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.threads = r->threads;
-    def.rocks_most = RUNS_MAX;
+    def.rocks_max = RUNS_MAX;
     def.cancel = r->cancel;
     def.arrivals_only = arrivals_only;
     return ceduo_pool_reuse_or_create(&def, pool);

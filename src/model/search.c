@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 #include "scene/schema.h"
 #include "scene/value.h"
 #include "study/inputs.h"
-#include "study/sure.h"
+#include "study/reliability.h"
 
 #define SURE_MAX       128  /* values evaluated under uncertainty */
 #define ERROR_STEP     0.05 /* first step for the slope at the value found, as a share of the range */
@@ -72,7 +72,7 @@ static enum ceduo_status evaluate_goal(void *context, double value, double *goal
     struct ceduo_results answer;
     q.rocks = ceduo_goals[s->def.goal].needs_rocks ? s->def.rocks : 0;
     q.only = s->def.option;
-    q.run.rocks_most = s->def.rocks;
+    q.run.rocks_max = s->def.rocks;
     q.run.threads = s->threads;
     q.run.cancel = s->cancel;
     q.run.arrivals_only = true;
@@ -96,7 +96,7 @@ static bool exclude_searched(struct search *s, const struct value *searched, str
     size_t n = 0;
     for (size_t i = 0; i < input->places_count; i++) {
         struct value place;
-        if (searched->at && ceduo_value_find(&s->file->scene, input->places[i], &place) && place.at == searched->at)
+        if (searched->member && ceduo_value_find(&s->file->scene, input->places[i], &place) && place.member == searched->member)
             continue;
         places[n] = input->places[i];
         draws[n++] = input->draws ? input->draws[i] : NULL;
@@ -124,7 +124,7 @@ static enum ceduo_status evaluate_once(struct search *s, double value, struct re
     if (!ceduo_inputs_collect(s->file, &inputs))
         return CEDUO_NO_MEMORY;
     if (!ceduo_value_find(&s->file->scene, s->def.path, &searched))
-        searched.at = NULL;
+        searched.member = NULL;
     for (size_t i = 0; i < inputs.n; i++)
         if (exclude_searched(s, &searched, &inputs.items[i]))
             inputs.items[n++] = inputs.items[i];
@@ -334,7 +334,7 @@ enum ceduo_status ceduo_preview(const struct scene_file *from, const char *path,
     if (change_scene(from, path, value, &file) && option < file.scene.options_count) {
         struct ceduo_request q = ceduo_request_default(&file.scene);
         struct ceduo_results answer;
-        q.rocks = q.run.rocks_most = PREVIEW_ROCKS;
+        q.rocks = q.run.rocks_max = PREVIEW_ROCKS;
         q.only = option;
         q.run.threads = threads;
         q.run.arrivals_only = true;

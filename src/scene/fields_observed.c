@@ -4,27 +4,29 @@
 #include "fields.h"
 
 #define KIND_VALUES(KIND) MEMBER(observed, values[CEDUO_OBSERVED_##KIND])
-#define POSITION(key, name, member, flags, meaning)                                                                            \
-    NUMBER(key, NAMED(name), MEMBER(observed_values, member), "m", -COORDINATE_MAX, COORDINATE_MAX, (flags) | NO_RUN, NULL,    \
-           meaning)
-#define VALUES(key, name, meaning)                                                                                             \
-    NUM(FIELD_NUMBERS, key, NAMED(name), LIST(observed_values, values, values_count), "", 1, -COORDINATE_MAX, COORDINATE_MAX,  \
-        NO_RUN, NULL, meaning)
-#define COUNT(key, name, member, lo, flags, meaning)                                                                           \
-    NUM(FIELD_COUNT, key, NAMED(name), MEMBER(observed_values, member), "", 1, lo, 1e9, (flags) | NO_RUN, NULL, meaning)
-#define RELEASED COUNT("of", N_("rocks released"), of, 1, 0, N_("rocks released; without it only those seen are compared"))
+#define POSITION(key, name, member, more_flags, about)                                                                         \
+    NUMBER(key, .shown = NAMED(name), MEMBER(observed_values, member), RANGE("m", -COORDINATE_MAX, COORDINATE_MAX),            \
+           .flags = (more_flags) | NO_RUN, .meaning = about)
+#define VALUES(key, name, about)                                                                                               \
+    ROW(FIELD_NUMBERS, key, .shown = NAMED(name), LIST(observed_values, values, values_count),                                 \
+        RANGE("", -COORDINATE_MAX, COORDINATE_MAX), .flags = NO_RUN, .meaning = about)
+#define COUNT(key, name, member, lo, more_flags, about)                                                                        \
+    ROW(FIELD_COUNT, key, .shown = NAMED(name), MEMBER(observed_values, member), RANGE("", lo, 1e9),                           \
+        .flags = (more_flags) | NO_RUN, .meaning = about)
+#define RELEASED                                                                                                               \
+    COUNT("of", N_("rocks released"), released_count, 1, 0, N_("rocks released; without it only those seen are compared"))
 #define TABLE                                                                                                                  \
-    KIND_ROW(FIELD_FILE, "csv", NAMED(N_("table")), MEMBER(observed_values, csv), NO_RUN, NULL,                                \
-             N_("a table that holds the values, instead of a list"), NULL, NULL),                                              \
+    FILE_NAME("csv", NAMED(N_("table")), MEMBER(observed_values, csv), NO_RUN,                                                 \
+              N_("a table that holds the values, instead of a list")),                                                         \
         TEXT("column", NAMED(N_("column")), MEMBER(observed_values, column), NO_RUN,                                           \
              N_("its column; without it the one that is named as usual, or the only one")),                                    \
         TEXT("only", NAMED(N_("only")), MEMBER(observed_values, only), NO_RUN,                                                 \
              N_("only those of its rows that have this in another column, such as block=1"))
 #define MEAN                                                                                                                   \
-    NUMBER("mean", NAMED(N_("mean")), MEMBER(observed_values, mean), "", 0, 1e9, NO_RUN, NULL,                                 \
-           N_("instead of values: their mean")),                                                                               \
-        NUMBER("sd", NAMED(N_("standard deviation")), MEMBER(observed_values, sd), "", 0, 1e9, NO_RUN, NULL,                   \
-               N_("their standard deviation")),                                                                                \
+    NUMBER("mean", .shown = NAMED(N_("mean")), MEMBER(observed_values, mean), RANGE("", 0, 1e9), .flags = NO_RUN,              \
+           .meaning = N_("instead of values: their mean")),                                                                    \
+        NUMBER("sd", .shown = NAMED(N_("standard deviation")), MEMBER(observed_values, sd), RANGE("", 0, 1e9),                 \
+               .flags = NO_RUN, .meaning = N_("their standard deviation")),                                                    \
         COUNT("n", N_("number"), n, 1, 0, N_("how many rocks they are of"))
 
 static const struct field stops_fields[] = {
@@ -40,7 +42,7 @@ ASKED_AT_ONCE(stops_fields);
 static const struct field passed_fields[] = {
     POSITION("x_m", N_("counted at, m"), x, REQUIRED, N_("where they were observed")),
     COUNT("count", N_("passed"), count, 0, REQUIRED, N_("rocks that passed")),
-    COUNT("of", N_("rocks released"), of, 1, REQUIRED, N_("rocks released")),
+    COUNT("of", N_("rocks released"), released_count, 1, REQUIRED, N_("rocks released")),
 };
 static const struct object passed_object = OBJECT(observed_values, passed_fields, NULL);
 ASKED_AT_ONCE(passed_fields);
@@ -67,16 +69,16 @@ static const struct field largest_fields[] = {
 };
 static const struct object largest_object = OBJECT(observed, largest_fields, NULL);
 
-static const struct field way_fields[] = {
-    NUMBER("from_m", BRIEF(N_("from, m"), N_("from m")), MEMBER(observed, way_from), "m", -COORDINATE_MAX, COORDINATE_MAX,
-           REQUIRED | NO_RUN, NULL, N_("where it begins")),
-    NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), MEMBER(observed, way_to), "m", -COORDINATE_MAX, COORDINATE_MAX,
-           REQUIRED | NO_RUN, NULL, N_("where it ends")),
+static const struct field stretch_fields[] = {
+    NUMBER("from_m", .shown = BRIEF(N_("from, m"), N_("from m")), MEMBER(observed, stretch_from),
+           RANGE("m", -COORDINATE_MAX, COORDINATE_MAX), .flags = REQUIRED | NO_RUN, .meaning = N_("where it begins")),
+    NUMBER("to_m", .shown = BRIEF(N_("to, m"), N_("to m")), MEMBER(observed, stretch_to),
+           RANGE("m", -COORDINATE_MAX, COORDINATE_MAX), .flags = REQUIRED | NO_RUN, .meaning = N_("where it ends")),
     GROUP("speed_m_s", N_("mean speed"), KIND_VALUES(WAY_SPEED), 0, &sample_object),
     GROUP("height_m", N_("mean height"), KIND_VALUES(WAY_HEIGHT), 0, &sample_object),
     GROUP("energy_kJ", N_("mean energy"), KIND_VALUES(WAY_ENERGY), 0, &sample_object),
 };
-static const struct object way_object = OBJECT(observed, way_fields, NULL);
+static const struct object stretch_object = OBJECT(observed, stretch_fields, NULL);
 
 static const struct field scars_fields[] = {
     POSITION("from_m", N_("from, m"), from, REQUIRED, N_("where it begins")),
@@ -84,8 +86,9 @@ static const struct field scars_fields[] = {
     VALUES("height_m", N_("height"), N_("heights of the middles of scars above the ground")),
     TABLE,
     RELEASED,
-    NUMBER("share_seen", NAMED(N_("share seen")), MEMBER(observed_values, share_seen), "", 0, 1, ABOVE | NO_RUN, NULL,
-           N_("share of the scars that a survey finds; bark hides 16 to 49 % of them (Stoffel 2005)")),
+    NUMBER("share_seen", .shown = NAMED(N_("share seen")), MEMBER(observed_values, share_seen), RANGE("", 0, 1),
+           .flags = ABOVE | NO_RUN,
+           .meaning = N_("share of the scars that a survey finds; bark hides 16 to 49 % of them (Stoffel 2005)")),
 };
 static const struct object scars_object = OBJECT(observed_values, scars_fields, NULL);
 ASKED_AT_ONCE(scars_fields);
@@ -94,8 +97,8 @@ static const struct field observed_fields[] = {
     TEXT("name", NAMED(N_("name")), MEMBER(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
     TEXT("name_it", NAMED(N_("in Italian")), MEMBER(observed, name_it), NO_RUN,
          N_("the same in Italian pages, screens and lists; without it in English")),
-    WORD("use", NAMED(N_("use")), MEMBER(observed, use), NO_RUN, "fit",
-         N_("whether the ground is fitted to it, or it only checks the fit"), &ceduo_use_words),
+    WORD("use", .shown = NAMED(N_("use")), MEMBER(observed, use), .flags = NO_RUN, .value = "fit",
+         .meaning = N_("whether the ground is fitted to it, or it only checks the fit"), .choices = &ceduo_use_words),
     TEXT("option", NAMED(N_("option")), MEMBER(observed, option), NO_RUN,
          N_("the option that stood there; without it the first")),
     GROUP("rock", N_("rock"), MEMBER(observed, rock), 0, &ceduo_rock_object),
@@ -108,7 +111,7 @@ static const struct field observed_fields[] = {
                    N_("height of their underside above the ground there, m"), &crossing_object),
     GROUP_LABELLED("energy", NAMED(N_("energy")), KIND_VALUES(ENERGY), 0, N_("their energy there, kJ"), &crossing_object),
     GROUP("largest", N_("largest"), EMBEDDED, 0, &largest_object),
-    GROUP("on_the_way", N_("on the way"), EMBEDDED, 0, &way_object),
+    GROUP("on_the_way", N_("on the way"), EMBEDDED, 0, &stretch_object),
     GROUP_LABELLED("scars", NAMED(N_("scars")), KIND_VALUES(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
 };
 const struct object ceduo_observed_object = OBJECT(observed, observed_fields, NULL);

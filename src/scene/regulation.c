@@ -19,7 +19,7 @@ static const struct ceduo_regulation_item *find_item(const struct ceduo_regulati
 
 static bool meets(const struct ceduo_regulation_item *item, double value)
 {
-    return item && value >= item->least && !(value > item->most);
+    return item && value >= item->min && !(value > item->max);
 }
 
 struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *r, const struct ceduo_stand *stand)
@@ -30,7 +30,7 @@ struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *r,
         return c;
     if (stand->cutting.rotation > 0)
         c.turn = (double)stand->cutting.rotation * (stand->cutting.cohorts > 1 ? stand->cutting.cohorts : 1);
-    c.of = r;
+    c.regulation = r;
     c.standards_item = find_item(r->standards, r->standards_count, stand);
     c.turn_item = find_item(r->turns, r->turns_count, stand);
     c.standards_met = meets(c.standards_item, c.standards);

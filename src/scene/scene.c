@@ -62,7 +62,7 @@ bool ceduo_option_has_lists(const struct ceduo_option *option)
     return good;
 }
 
-enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)
+enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *bad_control)
 {
     if (!scene)
         return CEDUO_BAD_ARGUMENT;
@@ -96,8 +96,8 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
         if (!(fabs(ceduo_number_min(*speeds[i])) < SPEED_MAX) || !(fabs(ceduo_number_max(*speeds[i])) < SPEED_MAX))
             return CEDUO_BAD_NUMBER;
     for (size_t i = 0; i < scene->controls_count; i++) {
-        if (where)
-            *where = i;
+        if (bad_control)
+            *bad_control = i;
         if (!(scene->controls[i].x <= end))
             return CEDUO_CONTROL_OFF_SLOPE;
         if (!(scene->controls[i].x > last))

@@ -55,7 +55,7 @@ const struct field *ceduo_schema_field(const struct object *object, const char *
 
 const struct field *ceduo_schema_unit(const struct object *object, const struct field *field)
 {
-    const char *key = ceduo_schema_other(object, field->key);
+    const char *key = ceduo_schema_alternative(object, field->key);
     const struct field *pair = key ? ceduo_schema_field(object, key) : NULL;
     return pair && pair->offset == field->offset ? pair : NULL;
 }
@@ -287,7 +287,7 @@ bool ceduo_schema_in_range(const struct field *f, double value)
 
 bool ceduo_schema_is_usual(const struct field *f, double value)
 {
-    return value == 0 || (value >= f->shown.least && value <= f->shown.most);
+    return value == 0 || (value >= f->shown.usual_min && value <= f->shown.usual_max);
 }
 
 bool ceduo_schema_spread_fits(const struct field *f, struct ceduo_number n)
@@ -330,7 +330,7 @@ bool ceduo_schema_field_holds(const struct field *f, const void *item)
     case FIELD_NUMBERS:
     case FIELD_LIST:
         memcpy(&items, member, sizeof items);
-        memcpy(&n, (const char *)item + f->beside, sizeof n);
+        memcpy(&n, (const char *)item + f->companion_offset, sizeof n);
         for (size_t i = 0; items && i < n; i++)
             if (f->type == FIELD_LIST ? !ceduo_schema_holds(f->object, items + i * f->object->size)
                                       : !ceduo_schema_in_range(f, ((const double *)(const void *)items)[i] / f->scale))

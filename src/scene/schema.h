@@ -57,7 +57,7 @@ enum field_flag {
     FIELD_MEANLESS = 1 << 4, /* a spread without mean is valid */
     FIELD_ZERO = 1 << 5,     /* 0 if not given; otherwise NaN, unless there is a default */
     FIELD_ONE_OF = 1 << 6,   /* another key may be given instead; the default holds if neither is given */
-    /* an x in the slope's coordinates; `beside` is the x relative to the first vertex, otherwise it is relative itself */
+    /* an x in the slope's coordinates; the companion is the x relative to the first vertex; without it the member is */
     FIELD_PLACE = 1 << 7,
     FIELD_NO_MEMBER = 1 << 8,  /* no member; only the reader of files uses it */
     FIELD_FILE_ONLY = 1 << 9,  /* member of the draft; the scene holds derived values */
@@ -72,21 +72,22 @@ enum field_flag {
 
 struct object;
 
-/* Display and input of a value, see view/typed.h. */
+/* Display and input of a value, see view/value_text.h. */
 struct field_shown {
-    const char *label, *brief; /* marked for translation; brief: for the head of a column, NULL: the label */
-    const char *unit;          /* NULL: the file's unit */
-    double per;                /* displayed units per unit of the file */
-    double least, most;        /* usual range, in the file's unit; outside, the form asks and the reader warns */
+    const char *label, *brief;   /* marked for translation; brief: for the head of a column, NULL: the label */
+    const char *unit;            /* NULL: the file's unit */
+    double per;                  /* displayed units per unit of the file */
+    double usual_min, usual_max; /* usual range, in the file's unit; outside, the form asks and the reader warns */
 };
 
 struct field {
     const char *key;
     enum field_type type;
-    size_t offset, size, beside; /* of the member; beside: offset of the number of items, or of the relative place */
-    const char *unit;            /* "" for a pure number */
-    double scale;                /* SI per unit of the file */
-    double lo, hi;               /* in the file's unit */
+    size_t offset, size;     /* position and size of the member, bytes */
+    size_t companion_offset; /* position of the number of items, or of the relative place */
+    const char *unit;        /* "" for a pure number */
+    double scale;            /* SI per unit of the file */
+    double lo, hi;           /* in the file's unit */
     unsigned flags;
     const char *value;   /* the default as in a file; NULL: none */
     const char *meaning; /* marked for translation */
@@ -123,7 +124,7 @@ struct observed_values {
     double *values;
     char *csv, *column, *only; /* table with the values */
     double mean, sd;
-    uint64_t n, count, of; /* 0: not given */
+    uint64_t n, count, released_count; /* 0: not given */
     double seen_from, share_seen;
 };
 
@@ -133,7 +134,7 @@ struct observed {
     int use;
     struct ceduo_rock_def rock;
     struct ceduo_release release;
-    double way_from, way_to;
+    double stretch_from, stretch_to;
     struct observed_values values[CEDUO_OBSERVED_KINDS];
 };
 
@@ -157,7 +158,7 @@ const struct object *ceduo_schema_stand(void);
 
 const struct field *ceduo_schema_field(const struct object *object, const char *key);
 /* Return the alternative key of a value, such as per_ha for per_stool; NULL if none. Only one of the two may be given. */
-const char *ceduo_schema_other(const struct object *object, const char *key);
+const char *ceduo_schema_alternative(const struct object *object, const char *key);
 /* Return the row of the same member in another unit; NULL if none. */
 const struct field *ceduo_schema_unit(const struct object *object, const struct field *field);
 

@@ -72,7 +72,7 @@ static bool enter_list(struct finder *f, const struct field *list)
     if (list->flags & (FIELD_FILE_ONLY | FIELD_NO_MEMBER))
         return false;
     memcpy(&items, f->item + list->offset, sizeof items);
-    memcpy(&n, f->item + list->beside, sizeof n);
+    memcpy(&n, f->item + list->companion_offset, sizeof n);
     if (list->flags & FIELD_SCALAR_OK && f->path[f->pos] == '.') { /* the only item, without an index */
         f->object = list->object;
         f->item = items;
@@ -98,15 +98,16 @@ static bool find_number(struct finder *f, const struct field *field, struct valu
     const struct ceduo_slope *s = &f->scene->slope;
     char *member = f->item + field->offset, *items;
     size_t n, i;
-    *v = (struct value){.field = field, .at = member, .n = f->n, .stride = f->object->size};
+    *v = (struct value){.field = field, .member = member, .n = f->n, .stride = f->object->size};
     v->origin = field->flags & FIELD_PLACE ? f->scene->slope.origin_x : 0;
     switch (field->type) {
     case FIELD_NUMBER:
         if (f->object == ceduo_schema_segment() &&
-            ceduo_schema_other(f->object, field->key)) /* not for stems: their per_ha is recomputed */
+            ceduo_schema_alternative(f->object, field->key)) /* not for stems: their per_ha is recomputed */
             v->alternative =
-                (double *)(void *)(f->item + ceduo_schema_field(f->object, ceduo_schema_other(f->object, field->key))->offset);
-        v->relative = field->flags & FIELD_PLACE ? (double *)(void *)(f->item + field->beside) : NULL;
+                (double *)(void *)(f->item +
+                                   ceduo_schema_field(f->object, ceduo_schema_alternative(f->object, field->key))->offset);
+        v->relative = field->flags & FIELD_PLACE ? (double *)(void *)(f->item + field->companion_offset) : NULL;
         return f->pos == f->length;
     case FIELD_COUNT:
     case FIELD_CHOICE:
@@ -114,18 +115,18 @@ static bool find_number(struct finder *f, const struct field *field, struct valu
     case FIELD_SPREAD:
         return find_spread_part(f, v);
     case FIELD_SPREADS:
-        v->at = next_index(f, 3, &i) ? member + i * sizeof(struct ceduo_number) : NULL;
-        return v->at && find_spread_part(f, v);
+        v->member = next_index(f, 3, &i) ? member + i * sizeof(struct ceduo_number) : NULL;
+        return v->member && find_spread_part(f, v);
     case FIELD_NUMBERS:
         memcpy(&items, member, sizeof items);
-        memcpy(&n, f->item + field->beside, sizeof n);
-        v->at = next_index(f, n, &i) ? items + i * sizeof(double) : NULL;
-        return v->at && f->pos == f->length;
+        memcpy(&n, f->item + field->companion_offset, sizeof n);
+        v->member = next_index(f, n, &i) ? items + i * sizeof(double) : NULL;
+        return v->member && f->pos == f->length;
     case FIELD_POINTS: /* materials may have added vertices; all x are relative to the first */
         if (s->segments_given == 0 || s->simplified_to > 0 || !next_index(f, s->vertices, &i) || !next_index(f, 2, &n) ||
             (n == 0 && i == 0))
             return false;
-        v->at = n == 0 ? &s->x[i] : &s->z[i];
+        v->member = n == 0 ? &s->x[i] : &s->z[i];
         v->origin = n == 0 ? s->origin_x : s->origin_z;
         return f->pos == f->length;
     default:
@@ -162,20 +163,20 @@ static bool is_spread(const struct field *f)
 double ceduo_value_get(const struct value *v)
 {
     const struct field *f = v->field;
-    const struct ceduo_number *n = v->at;
+    const struct ceduo_number *n = v->member;
     uint64_t count = 0;
     int choice;
     if (f->type == FIELD_COUNT) {
-        memcpy(&count, v->at, f->size);
+        memcpy(&count, v->member, f->size);
         return (double)count;
     }
     if (f->type == FIELD_CHOICE) {
-        memcpy(&choice, v->at, sizeof choice);
+        memcpy(&choice, v->member, sizeof choice);
         return choice;
     }
     if (v->part == VALUE_SPREAD)
         return n->spread / f->scale;
-    double si = is_spread(f) ? n->mean : *(const double *)v->at;
+    double si = is_spread(f) ? n->mean : *(const double *)v->member;
     return (v->relative ? si : si + v->origin) / f->scale;
 }
 
@@ -190,7 +191,7 @@ bool ceduo_value_set(const struct value *v, double number)
     if (f->type == FIELD_CHOICE ? !integer || choice < -1 : !in_range || (f->type == FIELD_COUNT && !integer))
         return false;
     if (is_spread(f)) {
-        memcpy(&changed, v->at, sizeof changed);
+        memcpy(&changed, v->member, sizeof changed);
         *(spread ? &changed.spread : &changed.mean) = stored;
         struct ceduo_number given = changed;
         given.mean += v->origin;
@@ -198,7 +199,7 @@ bool ceduo_value_set(const struct value *v, double number)
             return false;
     }
     for (size_t i = 0; i < v->n; i++) {
-        char *copy = (char *)v->at + i * v->stride;
+        char *copy = (char *)v->member + i * v->stride;
         if (f->type == FIELD_CHOICE) /* index of a word; -1: not given */
             memcpy(copy, &choice, sizeof choice);
         else if (is_spread(f))
@@ -219,5 +220,5 @@ void ceduo_value_forget(const struct value *v)
 {
     const double nan = NAN; /* of a spread, this is the mean */
     for (size_t i = 0; i < v->n; i++)
-        memcpy((char *)v->at + i * v->stride, &nan, sizeof nan); /* never a place along the slope: places are required */
+        memcpy((char *)v->member + i * v->stride, &nan, sizeof nan); /* never a place along the slope: places are required */
 }

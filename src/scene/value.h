@@ -12,10 +12,10 @@ enum value_part { VALUE_WHOLE, VALUE_SPREAD };
 struct value {
     const struct field *field; /* unit, range, meaning */
     enum value_part part;      /* mean or spread of a number with a spread */
-    void *at;                  /* in the scene */
+    void *member;              /* in the scene */
     size_t n, stride;          /* n copies, `stride` bytes apart, if a segment applies to the whole slope */
     double origin;             /* SI: subtracted to be relative to the slope's first vertex */
-    double *relative;          /* the relative place; `at` holds the given one; NULL: `at` is relative */
+    double *relative;          /* the relative place; `member` holds the given one; NULL: `member` is relative */
     double *alternative;       /* the value by its alternative key, set to NaN by ceduo_value_set(); NULL: none */
 };
 

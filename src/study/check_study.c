@@ -71,7 +71,7 @@ enum ceduo_status ceduo_check_uncertainty_def(const struct ceduo_uncertainty_def
                   def->points <= CEDUO_UNCERTAINTY_POINTS_MAX && def->points_max <= CEDUO_UNCERTAINTY_POINTS_MAX &&
                   def->years_max <= CEDUO_UNCERTAINTY_YEARS_MAX && def->rocks <= CEDUO_ROCKS_MAX &&
                   def->own_rocks <= CEDUO_ROCKS_MAX && def->threads <= CEDUO_THREADS_MAX;
-    bool good = counts && (!def->alone || def->option < options) && is_own_valid(def) &&
+    bool good = counts && (!def->one_option || def->option < options) && is_own_valid(def) &&
                 (def->window.step == 0 || ceduo_check_window(def->window) == CEDUO_OK);
     return good ? ceduo_check_inputs(def->inputs, def->inputs_count, true) : CEDUO_BAD_ARGUMENT;
 }

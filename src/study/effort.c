@@ -80,7 +80,7 @@ static enum ceduo_status run_pilot(const struct ceduo_uncertainty_def *def, stru
     double *u = malloc(PILOT * def->inputs_count * sizeof *u + 1);
     pilot.rocks = CEDUO_SURFACE_GROUPS;
     pilot.years_max = PILOT_YEARS;
-    pilot.alone = false;
+    pilot.one_option = false;
     double rocks =
         (double)pilot.rocks + (pilot.rotation ? (double)(ceduo_points_years(&pilot) * CEDUO_UNCERTAINTY_YEAR_ROCKS) : 0);
     pilot.effort_max = (uint64_t)((1 - PLANNED) * plan->max);

@@ -50,8 +50,8 @@ struct ceduo_observer {
 const struct ceduo_observed_row *ceduo_observed_row(enum ceduo_observed_kind kind)
 {
     static const struct ceduo_observed_row rows[] = {
-#define X(NAME, path, list, where, quantity)                                                                                   \
-    [CEDUO_OBSERVED_##NAME] = {path, list, CEDUO_WHERE_##where, CEDUO_QUANTITY_##quantity},
+#define X(NAME, path, list, location, quantity)                                                                                \
+    [CEDUO_OBSERVED_##NAME] = {path, list, CEDUO_LOCATION_##location, CEDUO_QUANTITY_##quantity},
         CEDUO_OBSERVED_LIST(X)
 #undef X
     };
@@ -127,14 +127,14 @@ static bool make_plan(struct ceduo_observer *o, const struct ceduo_observation *
         return false;
     p->observation = observation;
     p->row = ceduo_observed_row(observation->kind);
-    if (p->row->where == CEDUO_WHERE_AT_PLACE)
+    if (p->row->location == CEDUO_LOCATION_AT_PLACE)
         p->control = find_control(s, observation->x);
-    if (p->row->where == CEDUO_WHERE_ALONG) {
+    if (p->row->location == CEDUO_LOCATION_ALONG) {
         p->stretch = s->stretches_count++;
         s->stretches[p->stretch] = (struct ceduo_stretch){observation->from, observation->to};
     }
-    s->needs_record |= p->row->where >= CEDUO_WHERE_LARGEST;
-    s->blows |= p->row->where == CEDUO_WHERE_ON_STEMS;
+    s->needs_record |= p->row->location >= CEDUO_LOCATION_LARGEST;
+    s->blows |= p->row->location == CEDUO_LOCATION_ON_STEMS;
     if (observation->values) {
         make_classes(p);
     } else if (observation->kind == CEDUO_OBSERVED_PASSED) {
@@ -218,7 +218,7 @@ static enum ceduo_status simulate_setting(const struct setting *s, const struct 
     }
     struct ceduo_run_def def = ceduo_run_def_default(&f->scene);
     def.option = bare ? NULL : option;
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     def.cancel = cancel;
     status = status == CEDUO_OK ? ceduo_run_create(&def, &f->run) : status;
     return status == CEDUO_OK ? ceduo_run_extend(f->run, rocks) : status;
@@ -237,11 +237,11 @@ static double read_record(const struct simulated_setting *f, uint64_t rock, cons
     const struct ceduo_stretch_means *m = &f->record.means[rock * f->setting->stretches_count + p->stretch];
     const struct ceduo_crossing *c = &f->record.crossings[rock * f->setting->controls_count + p->control];
     enum ceduo_quantity quantity = p->row->quantity;
-    if (p->row->where == CEDUO_WHERE_AT_REST)
+    if (p->row->location == CEDUO_LOCATION_AT_REST)
         return r->stop_x;
-    if (p->row->where == CEDUO_WHERE_LARGEST)
+    if (p->row->location == CEDUO_LOCATION_LARGEST)
         return quantity == CEDUO_QUANTITY_HEIGHT ? r->largest_height : r->largest_speed;
-    if (p->row->where == CEDUO_WHERE_ALONG)
+    if (p->row->location == CEDUO_LOCATION_ALONG)
         return quantity == CEDUO_QUANTITY_HEIGHT ? m->height : quantity == CEDUO_QUANTITY_ENERGY ? m->energy : m->speed;
     if (!c->reached || quantity == CEDUO_QUANTITY_HEIGHT)
         return c->reached ? c->height : NAN;
@@ -257,7 +257,7 @@ static bool is_on_stretch(const struct ceduo_stem_impact *b, const struct plan *
 /* Return the n simulated values of one observation. The caller frees them. NULL on failure. */
 static double *collect_values(const struct simulated_setting *f, const struct plan *p, size_t *n)
 {
-    bool is_impact = p->row->where == CEDUO_WHERE_ON_STEMS;
+    bool is_impact = p->row->location == CEDUO_LOCATION_ON_STEMS;
     size_t capacity = is_impact ? f->record.blows_count : (size_t)f->rocks;
     enum ceduo_quantity quantity = p->row->quantity;
     double *values = malloc((capacity + 1) * sizeof *values);
@@ -266,14 +266,14 @@ static double *collect_values(const struct simulated_setting *f, const struct pl
         if (is_on_stretch(&f->record.blows[i], p))
             values[(*n)++] = f->record.blows[i].height;
     const double *samples = f->run ? ceduo_run_samples(f->run, p->control,
-                                                       p->row->where == CEDUO_WHERE_AT_REST ? CEDUO_SAMPLE_STOP
-                                                       : quantity == CEDUO_QUANTITY_HEIGHT  ? CEDUO_SAMPLE_HEIGHT
-                                                       : quantity == CEDUO_QUANTITY_ENERGY  ? CEDUO_SAMPLE_ENERGY
-                                                                                            : CEDUO_SAMPLE_SPEED)
+                                                       p->row->location == CEDUO_LOCATION_AT_REST ? CEDUO_SAMPLE_STOP
+                                                       : quantity == CEDUO_QUANTITY_HEIGHT        ? CEDUO_SAMPLE_HEIGHT
+                                                       : quantity == CEDUO_QUANTITY_ENERGY        ? CEDUO_SAMPLE_ENERGY
+                                                                                                  : CEDUO_SAMPLE_SPEED)
                                    : NULL;
     for (size_t i = 0; i < *n && !is_impact; i++) {
         values[i] = samples ? samples[i] : read_record(f, i, p);
-        if (p->row->where == CEDUO_WHERE_AT_REST && values[i] < p->observation->from)
+        if (p->row->location == CEDUO_LOCATION_AT_REST && values[i] < p->observation->from)
             values[i] = NAN;
     }
     return values;

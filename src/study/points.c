@@ -13,7 +13,7 @@
 
 struct work {
     const struct points *points;
-    size_t from, together;      /* first row; rows of the first item */
+    size_t from, shared_rows;   /* first row; rows of the first item */
     size_t each, today;         /* variants of a row, and of them those of today, which come first */
     struct point *variants;     /* option and slot of each variant of a row */
     struct input_scene *copies; /* one for each thread */
@@ -89,7 +89,7 @@ static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_vari
     variant->run = ceduo_run_def_default(point->scene);
     variant->run.option = point->forest;
     variant->skip = p->def->rocks == 0;
-    variant->rocks = variant->run.rocks_most = point->slot > 0 ? CEDUO_UNCERTAINTY_YEAR_ROCKS : p->def->rocks;
+    variant->rocks = variant->run.rocks_max = point->slot > 0 ? CEDUO_UNCERTAINTY_YEAR_ROCKS : p->def->rocks;
     variant->run.arrivals_only = true;
     variant->run.cancel = p->def->cancel;
     if (status == CEDUO_OK && variant->skip)
@@ -121,13 +121,13 @@ static void copy_variant(void *context, size_t i, size_t first)
 static int run_item(void *context, size_t i, size_t thread)
 {
     struct work *w = context;
-    bool together = i == 0 && w->together > 0;
-    size_t each = together ? w->today : w->each;
+    bool shared_rows = i == 0 && w->shared_rows > 0;
+    size_t each = shared_rows ? w->today : w->each;
     struct item item = {.work = w,
                         .copy = &w->copies[thread],
-                        .row = w->from + i + (!together && w->together > 0 ? w->together - 1 : 0),
+                        .row = w->from + i + (!shared_rows && w->shared_rows > 0 ? w->shared_rows - 1 : 0),
                         .each = each};
-    size_t n = (together ? w->together : 1) * each;
+    size_t n = (shared_rows ? w->shared_rows : 1) * each;
     item.control_means = malloc((n * w->points->def->scene->controls_count + 1) * sizeof *item.control_means);
     struct ceduo_variants list = {.n = n, .make = make_variant, .read = read_variant, .same = copy_variant, .context = &item};
     enum ceduo_status status = item.control_means ? ceduo_variants_run(&list) : CEDUO_NO_MEMORY;
@@ -145,7 +145,7 @@ static bool list_variants(struct work *w)
     for (int later = !w->points->today; w->variants && later < (def->rotation ? 2 : 1); later++) {
         for (size_t i = 0; i < def->scene->options_count; i++) {
             size_t slots = later ? ceduo_points_years(def) : 1;
-            for (size_t slot = 0; (!def->alone || i == def->option) && slot < slots; slot++)
+            for (size_t slot = 0; (!def->one_option || i == def->option) && slot < slots; slot++)
                 w->variants[w->each++] = (struct point){.option = i, .slot = slot + (later > 0)};
         }
         w->today = later ? w->today : w->each;
@@ -153,11 +153,11 @@ static bool list_variants(struct work *w)
     return w->variants;
 }
 
-enum ceduo_status ceduo_points_run(const struct points *p, size_t from, size_t to, size_t together)
+enum ceduo_status ceduo_points_run(const struct points *p, size_t from, size_t to, size_t shared_rows)
 {
-    struct work w = {.points = p, .from = from, .together = together};
+    struct work w = {.points = p, .from = from, .shared_rows = shared_rows};
     unsigned threads = p->def->threads > 0 ? p->def->threads : 1;
-    size_t items = to - from - (together > 0 ? together - 1 : 0);
+    size_t items = to - from - (shared_rows > 0 ? shared_rows - 1 : 0);
     w.copies = calloc(threads, sizeof *w.copies);
     enum ceduo_status status = w.copies && list_variants(&w) ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < threads && status == CEDUO_OK; i++)

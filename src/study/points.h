@@ -37,11 +37,11 @@ struct points {
     uint64_t *effort; /* set to the sum of ceduo_points_met(); may be NULL */
 };
 
-/* Simulate rows from…to - 1. The first `together` rows share most of their forests: one thread simulates them, today only.
+/* Simulate rows from…to - 1. The first `shared_rows` rows share most of their forests: one thread simulates them, today only.
  * Each year has its own rocks, the same in all rows, which reduces the error of a mean over years. If the window has more
  * years than slots, each slot is the middle year of an equal part. Return CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or the
  * status of ceduo_scene_check(). */
-enum ceduo_status ceduo_points_run(const struct points *points, size_t from, size_t to, size_t together);
+enum ceduo_status ceduo_points_run(const struct points *points, size_t from, size_t to, size_t shared_rows);
 
 /* Return the effort of contacts and stems. A stem that is hit costs three contacts. */
 static inline uint64_t ceduo_points_met(uint64_t contacts, struct ceduo_stem_counts stems)

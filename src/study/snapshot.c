@@ -61,7 +61,7 @@ static enum ceduo_status trace(struct ceduo_tracer *follower, uint64_t rock, str
                                struct ceduo_polyline *line)
 {
     struct ceduo_trajectory trajectory;
-    const struct ceduo_trajectory_callbacks callbacks = {.enough = is_cancelled, .piece = trace_segment, .context = t};
+    const struct ceduo_trajectory_callbacks callbacks = {.is_cancelled = is_cancelled, .segment = trace_segment, .context = t};
     t->n = 0;
     enum ceduo_status status = ceduo_tracer_run(follower, rock, &callbacks, &trajectory, NULL);
     if (status != CEDUO_OK)

@@ -13,7 +13,7 @@
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/assess.h"
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 #include "check_study.h"
 #include "inputs.h"
 #include "points.h"
@@ -42,7 +42,7 @@ struct rows {
 
 static bool is_asked(const struct rows *r, size_t option)
 {
-    return !r->def->alone || option == r->def->option;
+    return !r->def->one_option || option == r->def->option;
 }
 
 static struct ceduo_replicates *find_values(const struct rows *r, size_t row, size_t option)
@@ -277,7 +277,7 @@ static int read_item(void *context, size_t item, size_t worker)
     bool difference = item >= r->options;
     size_t option = difference ? item - r->options + 1 : item;
     struct subject s;
-    if (!is_asked(r, option) || (difference && (r->def->alone || r->def->brief)))
+    if (!is_asked(r, option) || (difference && (r->def->one_option || r->def->brief)))
         return CEDUO_OK;
     enum ceduo_status status = open_subject(r, option, difference ? 0 : option, &s);
     for (size_t kind = 0; kind < CEDUO_UNCERTAINTY_KINDS && status == CEDUO_OK; kind++) {
@@ -407,7 +407,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
     struct ceduo_results made = {0};
     const struct ceduo_results *own = def->own ? def->own : &made;
     size_t options = def->scene->options_count;
-    q.rocks = q.run.rocks_most = def->own_rocks > 0 ? def->own_rocks : def->rocks;
+    q.rocks = q.run.rocks_max = def->own_rocks > 0 ? def->own_rocks : def->rocks;
     q.run.threads = def->threads;
     q.run.cancel = def->cancel;
     q.run.arrivals_only = true;
@@ -561,7 +561,7 @@ enum ceduo_status ceduo_uncertainty_compute(const struct ceduo_uncertainty_def *
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){rows.options, def->threads, count_years, &rows});
     if (status == CEDUO_OK)
         status = read_figures(&rows, false);
-    if (status == CEDUO_OK && !def->alone)
+    if (status == CEDUO_OK && !def->one_option)
         status = rank_options(&rows);
     answer->points = rows.points;
     answer->rocks = checked.rocks;

@@ -82,8 +82,8 @@ static struct ceduo_estimate difference_today(const void *context, size_t option
 static struct ceduo_estimate difference_by_alternative_law(const void *context, size_t option, size_t less)
 {
     const struct ceduo_result *r = context;
-    const struct ceduo_alternative_energy *one = &r->options[option].others[r->last_control];
-    const struct ceduo_alternative_energy *two = &r->options[less].others[r->last_control];
+    const struct ceduo_alternative_energy *one = &r->options[option].alternatives[r->last_control];
+    const struct ceduo_alternative_energy *two = &r->options[less].alternatives[r->last_control];
     if (!one->known || !two->known || (one->model != two->model && one->stems && two->stems))
         return CEDUO_NO_ESTIMATE;
     return subtract_differences(judged_difference(r, &one->to_first), judged_difference(r, &two->to_first));

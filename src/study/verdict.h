@@ -63,8 +63,8 @@ struct ceduo_leader {
     bool uneven;   /* the options have different numbers of rocks (still computing): none is called best */
 };
 
-/* Two options whose order today depends on the energy law (other.h): clear under one law, and reversed by more than one
- * standard error under the other. */
+/* Two options whose order today depends on the energy law (alternative_law.h): clear under one law, and reversed by more than
+ * one standard error under the other. */
 struct ceduo_rank_reversal {
     size_t better, worse; /* under the law of the scene; reversed under the other law */
 };

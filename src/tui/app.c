@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
-#include "view/typed.h"
+#include "view/value_text.h"
 
 /* ---- strings ---- */
 

@@ -6,7 +6,7 @@
 #include "base/language.h"
 #include "ceduo/slope.h"
 #include "popup.h"
-#include "view/typed.h"
+#include "view/value_text.h"
 
 static bool set_cell_value(struct app *app, const struct form_cell *cell, const char *value)
 {

@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
-#include "view/typed.h"
+#include "view/value_text.h"
 
 #define LABEL_MIN  18 /* min. columns of labels */
 #define VALUE_MIN  25 /* min. columns of values */

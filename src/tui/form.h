@@ -13,7 +13,7 @@
 struct form_cell {
     const char *path; /* path of the value, as in --set */
     const struct field *field;
-    const char *text;    /* displayed value, see view/typed.h */
+    const char *text;    /* displayed value, see view/value_text.h */
     const char *written; /* scalar as in the file; "": none, or not a scalar */
     bool given;          /* written in the scene, not a default */
     bool assumed;

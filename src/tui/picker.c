@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/text.h"
 #include "base/utf8.h"
 #include "keys.h"

@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
-#include "view/typed.h"
+#include "view/value_text.h"
 
 /* ---- creating ---- */
 
@@ -92,7 +92,7 @@ struct popup_field *ceduo_popup_add_choice(struct popup *p, const char *label, c
 }
 
 const struct field ceduo_popup_amount = {
-    .key = "", .type = FIELD_NUMBER, .unit = "", .scale = 1, .hi = INFINITY, .shown = {.per = 1, .most = INFINITY}};
+    .key = "", .type = FIELD_NUMBER, .unit = "", .scale = 1, .hi = INFINITY, .shown = {.per = 1, .usual_max = INFINITY}};
 
 struct field *ceduo_popup_add_value(struct popup *p, const char *label, const char *value, const struct field *kind)
 {
@@ -108,12 +108,12 @@ struct field *ceduo_popup_add_value(struct popup *p, const char *label, const ch
 
 bool ceduo_popup_confirm_unusual(struct app *app, const struct field *field, struct line *line)
 {
-    LOCAL_TEXT(why);
-    bool good = ceduo_input_is_in_range(field, line->text, &why);
-    bool must_confirm = good && !line->confirmed && ceduo_input_is_unusual(field, line->text, &why);
+    LOCAL_TEXT(reason);
+    bool good = ceduo_input_is_in_range(field, line->text, &reason);
+    bool must_confirm = good && !line->confirmed && ceduo_input_is_unusual(field, line->text, &reason);
     line->confirmed |= must_confirm;
-    if (why.bytes)
-        ceduo_app_warn(app, "%s", why.bytes);
+    if (reason.bytes)
+        ceduo_app_warn(app, "%s", reason.bytes);
     return good && !must_confirm;
 }
 

@@ -6,7 +6,7 @@
 #include <time.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "io/file.h"
 #include "popup.h"
 #include "view/figures.h"

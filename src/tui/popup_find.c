@@ -5,7 +5,7 @@
 
 #include "base/language.h"
 #include "popup.h"
-#include "view/typed.h"
+#include "view/value_text.h"
 
 enum { FIND_GOAL, FIND_TARGET, FIND_SURE, FIND_LO, FIND_HI };
 
@@ -79,7 +79,7 @@ static void append_standards_rule(struct app *app, const char *path, struct text
     double own = app->document.file.scene.reserves_minimum;
     if (c.standards_item)
         ceduo_text_append_joined(text, " ", _("The rules of %s require at least %g standards per ha (%s, %u); %g are left."),
-                                 c.of->name, c.standards_item->least, c.standards_item->article, c.standards_item->year,
+                                 c.regulation->name, c.standards_item->min, c.standards_item->article, c.standards_item->year,
                                  c.standards);
     if (!isnan(own) && own > 0)
         ceduo_text_append_joined(text, " ", _("The scene requires at least %g per ha."), own);
@@ -230,8 +230,8 @@ static void ask_goal(struct app *app, const char *path, const char *written)
     for (int i = 0; i < 2; i++) {
         const char *end = ceduo_format_number(f, i == 0 ? lo : hi, buf);
         struct field *own = ceduo_popup_add_value(p, i == 0 ? _("values from") : _("to"), end, f);
-        own->shown.least = -INFINITY; /* no end is unusual */
-        own->shown.most = INFINITY;
+        own->shown.usual_min = -INFINITY; /* no end is unusual */
+        own->shown.usual_max = INFINITY;
     }
 }
 

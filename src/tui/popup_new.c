@@ -4,14 +4,14 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "ceduo/slope.h"
 #include "io/csv.h"
 #include "io/file.h"
 #include "popup.h"
 #include "scene/choices.h"
 #include "view/plot.h"
-#include "view/typed.h"
+#include "view/value_text.h"
 
 enum { NEW_TITLE, NEW_PROFILE, NEW_RELEASE, NEW_FACE, NEW_MATERIAL, NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED, NEW_STAND };
 

@@ -130,9 +130,10 @@ static void keep_standards(struct plan *p, size_t belt, const struct ceduo_stand
     ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "forest[%zu].stand.cutting.stay_per_ha", belt), "[%s]", list.bytes);
 }
 
-static void leave_belt(struct plan *p, size_t belt, const char *why)
+static void leave_belt(struct plan *p, size_t belt, const char *reason)
 {
-    ceduo_text_append_joined(&p->untreated, p->untreated.length > 0 ? " " : "", _("Belt %zu is unchanged: %s."), belt + 1, why);
+    ceduo_text_append_joined(&p->untreated, p->untreated.length > 0 ? " " : "", _("Belt %zu is unchanged: %s."), belt + 1,
+                             reason);
 }
 
 static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)

@@ -17,7 +17,7 @@ static void undo_or_redo(struct app *app, int step)
     }
     ceduo_app_refresh(app);
     ceduo_app_show_message(app, redo ? _("redone: %s") : _("undone: %s"),
-                           ceduo_app_path(app, d->states[d->current + !redo].what));
+                           ceduo_app_path(app, d->states[d->current + !redo].edit_name));
 }
 
 static void show_option(struct app *app, int step)

@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "base/hash.h"
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 
 #define FLIGHT_POINTS 24 /* points of a parabola: enough for any screen */
 #define SEGMENTS_MAX  20000
@@ -51,7 +51,7 @@ bool ceduo_app_trace_rock(struct app *app)
         s->key = key, s->rock = app->rock;
         s->start_time = ceduo_clock();
         const struct ceduo_trajectory_callbacks callbacks = {
-            .enough = has_timed_out, .piece = add_segment, .stem = add_stem, .context = s};
+            .is_cancelled = has_timed_out, .segment = add_segment, .stem = add_stem, .context = s};
         enum ceduo_status status = ceduo_trajectory_run(scene, ceduo_app_option(app), s->rock, &callbacks, &s->whole, NULL);
         s->cut_short = status == CEDUO_CANCELLED;
         if (status != CEDUO_OK && !s->cut_short) {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
 #include "popup.h"
 

@@ -8,7 +8,7 @@
 #include "popup.h"
 #include "view/page_parts.h"
 #include "view/report.h"
-#include "view/typed.h"
+#include "view/value_text.h"
 
 #define PICTURE_MIN 8
 #define RANGE       "\xe2\x80\x93"

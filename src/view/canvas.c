@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/text.h"
 #include "base/utf8.h"
 
@@ -186,12 +186,12 @@ static bool clip_edge(double p, double q, double *lo, double *hi)
     return *lo <= *hi;
 }
 
-static void draw_clipped(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, struct ceduo_pen *pen, double ax,
-                         double ay, double bx, double by)
+static void draw_clipped(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, struct ceduo_pen *pen, double x0,
+                         double y0, double x1, double y1)
 {
     struct ceduo_position a, b;
     double lo = 0, hi = 1, margin = canvas->surface->margin;
-    if (!convert_point(frame, &pen->raster, ax, ay, &a) || !convert_point(frame, &pen->raster, bx, by, &b))
+    if (!convert_point(frame, &pen->raster, x0, y0, &a) || !convert_point(frame, &pen->raster, x1, y1, &b))
         return;
     double dx = b.x - a.x, dy = b.y - a.y;
     if (isfinite(dx) && isfinite(dy) && clip_edge(-dx, a.x + margin, &lo, &hi) &&
@@ -216,18 +216,18 @@ void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame
 
 /* Draw a straight line only if both ends are valid; a polyline would leave a dot. */
 static void draw_straight(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                          enum ceduo_stroke stroke, double ax, double ay, double bx, double by)
+                          enum ceduo_stroke stroke, double x0, double y0, double x1, double y1)
 {
     if (!is_frame_valid(frame))
         return;
     struct ceduo_pen pen = {make_raster(canvas, frame), role, stroke, INT_MIN, INT_MIN};
-    draw_clipped(canvas, frame, &pen, ax, ay, bx, by);
+    draw_clipped(canvas, frame, &pen, x0, y0, x1, y1);
 }
 
-void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax, double ay,
-                       double bx, double by)
+void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x0, double y0,
+                       double x1, double y1)
 {
-    draw_straight(canvas, frame, role, CEDUO_STROKE_PLAIN, ax, ay, bx, by);
+    draw_straight(canvas, frame, role, CEDUO_STROKE_PLAIN, x0, y0, x1, y1);
 }
 
 void ceduo_canvas_rule_y(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double y)

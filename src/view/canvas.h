@@ -89,9 +89,9 @@ bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas
 
 /* ---- Drawing data, clipped to the frame ---- */
 
-/* Draw a straight line from (ax, ay) to (bx, by), clipped. */
-void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax, double ay,
-                       double bx, double by);
+/* Draw a straight line from (x0, y0) to (x1, y1), clipped. */
+void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x0, double y0,
+                       double x1, double y1);
 
 /* Draw lines through n points. A point that is not finite breaks the line; an isolated point is a dot. */
 void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/text.h"
 #include "base/utf8.h"
 

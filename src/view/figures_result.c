@@ -44,7 +44,7 @@ static const struct ceduo_arrivals *get_wooded_arrivals(const struct ceduo_place
 /* Return the result by the other law, today only; NULL if no stem stands. */
 static const struct ceduo_alternative_energy *find_alternative(const struct ceduo_place *p)
 {
-    const struct ceduo_alternative_energy *alternative = &get_result(p)->options[p->option].others[p->control];
+    const struct ceduo_alternative_energy *alternative = &get_result(p)->options[p->option].alternatives[p->control];
     return !p->year && alternative->known && alternative->stems ? alternative : NULL;
 }
 
@@ -77,7 +77,7 @@ OBJECT(get_option, place, &get_result(o)->scene->options[o->option])
 OBJECT(get_first, place, &get_result(o)->scene->options[0])
 OBJECT(get_belt, place, &get_forest(o)->belts[o->belt])
 OBJECT(get_stand, place, get_stand_result(o))
-OBJECT(get_rules, place, get_stand_result(o)->rules.of ? &get_stand_result(o)->rules : NULL)
+OBJECT(get_rules, place, get_stand_result(o)->rules.regulation ? &get_stand_result(o)->rules : NULL)
 OBJECT(get_control, place, &get_result(o)->scene->controls[o->control])
 OBJECT(get_fence, place, ceduo_fence_stands(&get_result(o)->scene->controls[o->control].fence) ? o : NULL)
 OBJECT(get_fence_years, place, o->year ? NULL : ceduo_report_fence_years(o->report, o->option, o->control))
@@ -185,12 +185,12 @@ static void report_reason(const struct ceduo_place *p, ceduo_sentence_sink *sink
 {
     const struct ceduo_outcome o = judge(p);
     const struct ceduo_subject subject = ceduo_subject_find(p->report, p->option, p->control);
-    LOCAL_TEXT(why);
+    LOCAL_TEXT(reason);
     if ((o.over_years && o.answer != CEDUO_CANNOT_JUDGE) || o.impossible)
-        ceduo_words_reason(&why, &subject);
+        ceduo_words_reason(&reason, &subject);
     else
-        ceduo_words_judgement_reason(&why, p->report->result, p->control, get_wooded_arrivals(p));
-    sink(context, ceduo_text_string(&why));
+        ceduo_words_judgement_reason(&reason, p->report->result, p->control, get_wooded_arrivals(p));
+    sink(context, ceduo_text_string(&reason));
 }
 
 static void report_all_warnings(const struct ceduo_place *place, ceduo_sentence_sink *sink, void *context)
@@ -216,7 +216,7 @@ VALUE(design_class, fence_design, COUNT, o->class_index >= 0 ? COUNT((uint64_t)o
 VALUE(design_class_factored, fence_design, COUNT, o->class_factored >= 0 ? COUNT((uint64_t)o->class_factored) : NO_VALUE)
 VALUE(rocks_reached, arrivals, COUNT, isnan(o->reach.mean) ? NO_VALUE : COUNT(o->reached))
 VALUE(adc_rule, stand_result, TEXT, WORD(isinf(o->adc_m) ? NULL : ceduo_rule_words.names[o->rule]))
-VALUE(region_name, compliance, TEXT, WORD(o->of->name))
+VALUE(region_name, compliance, TEXT, WORD(o->regulation->name))
 VALUE(standards_met, compliance, FLAG, o->standards_item ? FLAG(o->standards_met) : NO_VALUE)
 VALUE(turn_met, compliance, FLAG, o->turn_item && !isnan(o->turn) ? FLAG(o->turn_met) : NO_VALUE)
 VALUE(index_per_100m, index, NUMBER, NUMBER(o->length > 0 ? o->per_100m : NAN))
@@ -238,7 +238,7 @@ VALUE(window_hi, choice, NUMBER, NUMBER(fmin(1, o->mean.mean + o->mean.half)))
 VALUE(window_worst, choice, NUMBER, NUMBER(o->worst.mean))
 VALUE(window_worst_year, choice, COUNT, COUNT(o->last_summary->worst_year))
 VALUE(window_failing, choice, COUNT, o->energy_known ? COUNT(o->last_summary->unprotected_energy) : NO_VALUE)
-VALUE(judgement_by_other_law, alternative_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
+VALUE(judgement_by_alternative_law, alternative_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
 VALUE(felled_length, place, NUMBER, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, TEXT, WORD("ceduo-find-1"))
 VALUE(find_path, find_report, TEXT, WORD(o->file->name))
@@ -287,7 +287,7 @@ static const void *get_hazard_figures(const void *arrivals)
 static const void *exceed_item(const void *object, size_t i)
 {
     const struct ceduo_hazard *h = object;
-    return h->curve && i < h->curve->count ? &h->curve->at[i] : NULL;
+    return h->curve && i < h->curve->count ? &h->curve->points[i] : NULL;
 }
 
 static const void *return_item(const void *object, size_t i)
@@ -323,8 +323,9 @@ static const struct ceduo_figure matrix[] = {
     {"intensity", "", "weak, medium or strong: below 30 kJ, 30 to 300 kJ, above 300 kJ (BAFU 2016)", MEMBER(intensity, word)},
     {"from_kJ", "kJ", "lower limit of the class", MEMBER(intensity, from), .scale = J_TO_KJ},
     {"to_kJ", "kJ", "upper limit", MEMBER(intensity, to), .scale = J_TO_KJ, .null = "there is none"},
-    {.table = rate_figures, .offset = offsetof(struct ceduo_intensity, within)},
-    {"rate_left", "", "share of the rate without forest", MEMBER(intensity, left), .null = "none arrive without forest"},
+    {.table = rate_figures, .offset = offsetof(struct ceduo_intensity, rate)},
+    {"rate_left", "", "share of the rate without forest", MEMBER(intensity, remaining_share),
+     .null = "none arrive without forest"},
     {"to_30_years", "", "whether the energy of 30 years is in this class: a mark of the matrix",
      MEMBER(intensity, of_return[1])},
     {"to_100_years", "", "the same of 100 years", MEMBER(intensity, of_return[2])},
@@ -355,7 +356,7 @@ static const struct ceduo_figure hazard_figures[] = {
     {"rate_left", "",
      "share of the rate without forest: of what exceeds accepted_kJ, or of all that arrive where that is not "
      "given",
-     MEMBER(hazard, left), .null = "it is 0 without forest"},
+     MEMBER(hazard, remaining_share), .null = "it is 0 without forest"},
     END};
 
 /* ---- fences ---- */
@@ -541,16 +542,16 @@ static const struct ceduo_figure rules[] = {
     {"region", "", "whose rules", .value = region_name},
     {"standards_per_ha", "1/ha", "standards that a cut leaves, or without cutting the trees that stand",
      MEMBER(compliance, standards)},
-    {"standards_least", "1/ha", "standards asked for at least", .from = get_standards, MEMBER(regulation_item, least),
+    {"standards_least", "1/ha", "standards asked for at least", .from = get_standards, MEMBER(regulation_item, min),
      .null = SILENT},
-    {"standards_most", "1/ha", "at most", .from = get_standards, MEMBER(regulation_item, most),
+    {"standards_most", "1/ha", "at most", .from = get_standards, MEMBER(regulation_item, max),
      .null = "there is no such limit"},
     {"standards_met", "", "whether that is kept", .value = standards_met, .null = SILENT},
     {"standards_article", "", "article and act", .from = get_standards, MEMBER(regulation_item, article), .null = SILENT},
     {"standards_year", "", "year of that act", .from = get_standards, MEMBER(regulation_item, year), .null = SILENT},
     {"turn_y", "y", "age of the oldest shoots at a cut", MEMBER(compliance, turn), .null = NEVER_CUT},
-    {"turn_least", "y", "age asked for at least", .from = get_turn, MEMBER(regulation_item, least), .null = SILENT},
-    {"turn_most", "y", "at most", .from = get_turn, MEMBER(regulation_item, most), .null = "there is no such limit"},
+    {"turn_least", "y", "age asked for at least", .from = get_turn, MEMBER(regulation_item, min), .null = SILENT},
+    {"turn_most", "y", "at most", .from = get_turn, MEMBER(regulation_item, max), .null = "there is no such limit"},
     {"turn_met", "", "whether that is kept", .value = turn_met, .null = SILENT ", or " NEVER_CUT},
     {"turn_article", "", "article and act", .from = get_turn, MEMBER(regulation_item, article), .null = SILENT},
     {"turn_year", "", "year of that act", .from = get_turn, MEMBER(regulation_item, year), .null = SILENT},
@@ -608,8 +609,8 @@ static const struct ceduo_figure lights[] = {
 
 #define ANSWERS "yes, no, not-decided (the 95 % interval holds the limit), nothing (hardly a rock arrives even without forest)"
 static const struct ceduo_figure verdict_of_other[] = {
-    {"answer", "", "the same by that law, but depends where one law says yes and the other no", .value = judgement_by_other_law,
-     .null = NO_LIMIT},
+    {"answer", "", "the same by that law, but depends where one law says yes and the other no",
+     .value = judgement_by_alternative_law, .null = NO_LIMIT},
     END};
 
 static const struct ceduo_figure other_mean[] = {
@@ -617,7 +618,7 @@ static const struct ceduo_figure other_mean[] = {
     {"se", "", "standard error of the mean", MEMBER(alternative_energy, arrivals.energy.se), .null = TOO_FEW},
     END};
 
-static const struct ceduo_figure other_energy[] = {
+static const struct ceduo_figure alternative_energy[] = {
     {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
      .offset = offsetof(struct ceduo_alternative_energy, model)},
     {"rocks", "", "simulated under it: the first 10240 of the run, if it has more",
@@ -659,7 +660,7 @@ static const struct ceduo_figure control[] = {
     {"index", "", "the index of the paper", .from = get_index, .table = by_index},
     {"wooded", "", "what arrives through the forest of this option", .from = get_wooded, .table = wooded,
      .null = "contact_model is index"},
-    {"other_energy", "", "the same rocks under the other energy law of stems", .from = get_alt, .table = other_energy,
+    {"other_energy", "", "the same rocks under the other energy law of stems", .from = get_alt, .table = alternative_energy,
      .null = "the option has no stems, contact_model is index, and in a year of --years"},
     {"design", "", "design values of a fence there", .from = get_designs, .table = designs, .null = "the scene has no design"},
     {"lights", "", "verdicts on the way from the release to this control, each pass, fail or unknown, never merged into one",

@@ -69,7 +69,7 @@ void ceduo_measure_mean_uncertainty(struct ceduo_measure *m, const struct ceduo_
         set_uncertainty(m, uncertainty, option, CEDUO_UNCERTAINTY_MEAN);
 }
 
-struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind what, const struct ceduo_arrivals *arrivals)
+struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind kind, const struct ceduo_arrivals *arrivals)
 {
     static const struct {
         const char *name, *phrase;
@@ -99,15 +99,15 @@ struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind what, const st
                                                 [CEDUO_P95_HEIGHT] = a->height.p95,
                                                 [CEDUO_SPEED] = a->speed.mean,
                                                 [CEDUO_STEMS_HIT] = a->contacts.mean};
-    double value = a->released > 0 ? values[what] : NAN, half_width = half_widths[what] > 0 ? half_widths[what] : NAN;
+    double value = a->released > 0 ? values[kind] : NAN, half_width = half_widths[kind] > 0 ? half_widths[kind] : NAN;
     return (struct ceduo_measure){.value = value,
                                   .lo = value - half_width,
                                   .hi = value + half_width,
                                   .half_width = half_width,
                                   .p5 = NAN,
                                   .p95 = NAN,
-                                  .digits = what < CEDUO_MEAN_KJ ? 0 : 3,
-                                  .names = {names[what].name, names[what].name, names[what].name, names[what].phrase}};
+                                  .digits = kind < CEDUO_MEAN_KJ ? 0 : 3,
+                                  .names = {names[kind].name, names[kind].name, names[kind].name, names[kind].phrase}};
 }
 
 const struct ceduo_fence_arrivals *ceduo_fence_find(const struct ceduo_arrivals *a)
@@ -183,9 +183,9 @@ uint64_t ceduo_rocks_unfinished(const struct ceduo_arrivals *a)
     return a->unfinished;
 }
 
-const struct ceduo_distribution *ceduo_arrival_distribution(enum ceduo_spread what, const struct ceduo_arrivals *a)
+const struct ceduo_distribution *ceduo_arrival_distribution(enum ceduo_spread kind, const struct ceduo_arrivals *a)
 {
-    return what == CEDUO_ARRIVAL_SPEED ? &a->speed : what == CEDUO_ARRIVAL_ENERGY ? &a->energy : &a->height;
+    return kind == CEDUO_ARRIVAL_SPEED ? &a->speed : kind == CEDUO_ARRIVAL_ENERGY ? &a->energy : &a->height;
 }
 
 bool ceduo_is_close_call(const struct ceduo_arrivals *a)

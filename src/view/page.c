@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "svg.h"
 
 static struct ceduo_page_block *add_block(struct ceduo_page *page, enum ceduo_page_kind kind)

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
 #include "page_parts.h"
 #include "plot.h"
@@ -216,7 +216,7 @@ static const char *format_cell(enum column column, const struct ceduo_subject *s
     const struct ceduo_hazard *h = ceduo_hazard_find(s->wooded);
     const char *unknown = s->report->busy && !c && s->index ? PENDING : "-";
     bool rates = has_rates(s->report), judged = c && !c->last_summary->nothing;
-    double remaining = h && column >= WEAK && column <= STRONG ? h->intensity[column - WEAK].left : NAN;
+    double remaining = h && column >= WEAK && column <= STRONG ? h->intensity[column - WEAK].remaining_share : NAN;
     switch (column) {
     case TODAY:
         return rates && s->wooded ? ceduo_words_return_period(ceduo_judged_rate(s->wooded), buffer)

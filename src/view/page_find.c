@@ -4,7 +4,7 @@
 
 #include "base/language.h"
 #include "report.h"
-#include "typed.h"
+#include "value_text.h"
 
 static void append_goal(struct text *text, enum ceduo_goal goal, double value, double target)
 {

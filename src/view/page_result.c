@@ -10,7 +10,7 @@
 #include "page_parts.h"
 #include "plot.h"
 #include "scene/choices.h"
-#include "typed.h"
+#include "value_text.h"
 
 /* ---- head ---- */
 
@@ -245,7 +245,7 @@ static void add_lights(struct ceduo_page *page, const struct ceduo_result *r, si
     }
     for (size_t i = 0; i < 3; i++)
         ceduo_words_test(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control, i);
-    if (r->options[option].others[control].known && r->options[option].others[control].stems)
+    if (r->options[option].alternatives[control].known && r->options[option].alternatives[control].stems)
         ceduo_words_alternative_law(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
 }
 

@@ -19,8 +19,8 @@ static const char *append_note(const struct ceduo_regulation *rules, struct text
 /* Append "≥ 50" or "20–30". */
 static void append_limits(struct text *text, item *rule)
 {
-    ceduo_text_format(text, isnan(rule->most) ? "\xe2\x89\xa5 %s" : "%s\xe2\x80\x93%s", LOCALIZED(rule->least),
-                      LOCALIZED(rule->most));
+    ceduo_text_format(text, isnan(rule->max) ? "\xe2\x89\xa5 %s" : "%s\xe2\x80\x93%s", LOCALIZED(rule->min),
+                      LOCALIZED(rule->max));
 }
 
 /* Append the rule of standards or of the rotation of a belt. */
@@ -38,14 +38,14 @@ static void add_rule_sentence(struct ceduo_page *page, const struct ceduo_belt *
             page, CEDUO_PAGE_SENTENCE,
             turn ? _("%s: the rules of %s give no rotation for this species (%s). The rotation is not checked.")
                  : _("%s: the rules of %s give no number of standards for this species (%s). The number is not checked."),
-            belt->name, c->of->name, _(ceduo_species_list(&count)[belt->stand.species].common));
+            belt->name, c->regulation->name, _(ceduo_species_list(&count)[belt->stand.species].common));
         return;
     }
     append_limits(&limits, rule);
     ceduo_page_once(page, met ? CEDUO_PAGE_SENTENCE : CEDUO_PAGE_WARNING,
                     turn ? _("%s: %s asks for a rotation of %s years (%s, %u); shoots are cut at %.4g: %s.")
                          : _("%s: %s asks for %s standards a hectare (%s, %u); %.4g are kept: %s."),
-                    belt->name, c->of->name, limits.bytes, rule->article, rule->year, turn ? c->turn : c->standards,
+                    belt->name, c->regulation->name, limits.bytes, rule->article, rule->year, turn ? c->turn : c->standards,
                     met ? _("met") : _("NOT met"));
 }
 
@@ -56,7 +56,7 @@ void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *
         const struct ceduo_belt *belt = &o->belts[i];
         const struct ceduo_compliance *c = &r->options[option].stands[i].rules;
         LOCAL_TEXT(note);
-        if (!c->of)
+        if (!c->regulation)
             continue;
         if (belt->stand.species >= 0) {
             add_rule_sentence(page, belt, c, false, all);
@@ -64,10 +64,10 @@ void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *
                 add_rule_sentence(page, belt, c, true, all);
         } else if (all) {
             ceduo_page_once(page, CEDUO_PAGE_SENTENCE, _("%s: the stand has no species, so the rules of %s are not checked."),
-                            belt->name, c->of->name);
+                            belt->name, c->regulation->name);
         }
         if (all)
-            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, "%s", append_note(c->of, &note));
+            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, "%s", append_note(c->regulation, &note));
     }
 }
 
@@ -111,10 +111,10 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
     for (size_t i = 0; i < r->scene->options_count; i++)
         for (size_t k = 0; k < r->scene->options[i].belts_count; k++) {
             const struct ceduo_compliance *c = &r->options[i].stands[k].rules;
-            if (!c->of)
+            if (!c->regulation)
                 continue;
             if (!rules) {
-                rules = c->of;
+                rules = c->regulation;
                 ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Rules of %s"), rules->name);
                 CEDUO_PAGE_TABLE_OF(page, columns);
             }

@@ -11,7 +11,7 @@
 #include "report.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
-#include "typed.h"
+#include "value_text.h"
 
 #define SHARE_MIN   0.01 /* min share of a listed input */
 #define NO_GAIN_MIN 0.995

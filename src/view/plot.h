@@ -4,7 +4,7 @@
 
 #include "canvas.h"
 #include "page.h"
-#include "study/seen.h"
+#include "study/observed_stops.h"
 #include "study/snapshot.h"
 #include "words.h"
 

@@ -97,13 +97,13 @@ static void draw_curve(const struct ceduo_drawing *d, size_t item)
 {
     const struct ceduo_hazard *h = find_hazard(d, item);
     const struct ceduo_frame *f = &d->frame;
-    for (size_t i = FIRST_ENERGY; h && i + 1 < h->curve->count && h->curve->at[i].rate.mean > 0; i++) {
-        const struct ceduo_hazard_point *a = &h->curve->at[i], *b = a + 1;
+    for (size_t i = FIRST_ENERGY; h && i + 1 < h->curve->count && h->curve->points[i].rate.mean > 0; i++) {
+        const struct ceduo_hazard_point *a = &h->curve->points[i], *b = a + 1;
         ceduo_canvas_line(d->canvas, f, get_role(item), log_kJ(a), logarithm(a->rate.mean), log_kJ(b->rate.mean > 0 ? b : a),
                           logarithm(b->rate.mean));
     }
     for (size_t i = FIRST_ENERGY; h && item == d->picture->option + 1 && i < h->curve->count; i += 2) {
-        const struct ceduo_hazard_point *e = &h->curve->at[i];
+        const struct ceduo_hazard_point *e = &h->curve->points[i];
         double x = log_kJ(e);
         if (x >= f->x0 && logarithm(e->rate.hi) > RATE_MIN)
             ceduo_canvas_line(d->canvas, f, CEDUO_ROLE_MEAN, x, fmax(RATE_MIN, logarithm(e->rate.lo)), x,
@@ -140,9 +140,9 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
         return blocks ? _("not computed yet") : _("the scene has no 'blocks'");
     if (!set_chart_frame(d, &hazard_size, items))
         return _("too narrow");
-    while (last > 0 && logarithm(bare->curve->at[last - 1].rate.mean) < RATE_MIN)
+    while (last > 0 && logarithm(bare->curve->points[last - 1].rate.mean) < RATE_MIN)
         last--;
-    d->frame.x1 = last > 0 ? log10(bare->curve->at[last - 1].energy * J_TO_KJ * 1.3) : 0;
+    d->frame.x1 = last > 0 ? log10(bare->curve->points[last - 1].energy * J_TO_KJ * 1.3) : 0;
     d->frame.y0 = RATE_MIN;
     d->frame.y1 = ceil(logarithm(bare->reach.mean) + 1e-9);
     if (!(d->frame.x1 > 0 && d->frame.y1 > RATE_MIN))
@@ -168,10 +168,11 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
         char sign[24];
         size_t point = 14 + 4 * i; /* label with the option's number */
         snprintf(sign, sizeof sign, "%zu", i);
-        while (h && point > 0 && (point >= h->curve->count || logarithm(h->curve->at[point].rate.mean) < RATE_MIN))
+        while (h && point > 0 && (point >= h->curve->count || logarithm(h->curve->points[point].rate.mean) < RATE_MIN))
             point--;
         if (h)
-            draw_sign(d, log_kJ(&h->curve->at[point]), logarithm(h->curve->at[point].rate.mean), false, get_role(i), sign);
+            draw_sign(d, log_kJ(&h->curve->points[point]), logarithm(h->curve->points[point].rate.mean), false, get_role(i),
+                      sign);
         draw_name(d, i);
     }
     return NULL;

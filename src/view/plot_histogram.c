@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "plot.h"
 #include "report.h"
 

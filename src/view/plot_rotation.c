@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
 #include "plot.h"
 

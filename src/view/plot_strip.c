@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/language.h"
-#include "base/must.h"
+#include "base/oom.h"
 #include "plot.h"
 
 /* Strips along the slope: curves of height or energy of the passing rocks. */
@@ -228,17 +228,17 @@ static const char *draw_strip(struct ceduo_drawing *d, bool energy)
     bool small = d->area.height - 1 - 2 * !d->picture->no_x_axis < FULL_ROWS || d->area.width < FULL_WIDTH ||
                  names < name_columns(d->canvas, &contents[1], energy) - 1;
     const struct content *content = &contents[!d->wooded ? 0 : small ? 2 : 1];
-    const char *why = NULL;
+    const char *reason = NULL;
     if (!d->run || !d->bare)
         return _("not computed yet");
     s.n = snapshot->cells;
     s.x = snapshot->cell_x;
     if (!read_curves(&s, content))
-        why = _("no rock passes here");
+        reason = _("no rock passes here");
     set_strip_frame(&s, content);
-    if (!why && (d->frame.width < 2 || d->frame.height < 1 || !(d->frame.x1 > d->frame.x0)))
-        why = _("too narrow");
-    if (!why) {
+    if (!reason && (d->frame.width < 2 || d->frame.height < 1 || !(d->frame.x1 > d->frame.x0)))
+        reason = _("too narrow");
+    if (!reason) {
         draw_caption(&s, content);
         if (d->picture->trajectories && !energy)
             draw_trajectories(d);
@@ -256,7 +256,7 @@ static const char *draw_strip(struct ceduo_drawing *d, bool energy)
     }
     for (int i = 0; i < s.count; i++)
         free(s.y[i]);
-    return why;
+    return reason;
 }
 
 const char *ceduo_plot_height(struct ceduo_drawing *d)

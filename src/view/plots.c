@@ -67,10 +67,10 @@ bool ceduo_plot_add(enum ceduo_plot plot, struct ceduo_page *page, const struct 
     struct ceduo_drawing d = make_drawing(picture);
     d.page = page;
     d.height = height;
-    const char *why = draw_picture(plot, &d);
-    if (why)
-        ceduo_page_para(page, CEDUO_PAGE_NOTE, "%s", why);
-    return !why;
+    const char *reason = draw_picture(plot, &d);
+    if (reason)
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, "%s", reason);
+    return !reason;
 }
 
 #define PAGE_WIDTH_MIN 30 /* min columns for text next to bars */
@@ -87,15 +87,16 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
     d.area = *area;
     d.page = &page;
     d.height = area->height;
-    const char *why = draw_picture(plot, &d);
-    if (is_page && !why && area->width < PAGE_WIDTH_MIN)
-        why = _("too narrow");
-    if (is_page && !why)
+    const char *reason = draw_picture(plot, &d);
+    if (is_page && !reason && area->width < PAGE_WIDTH_MIN)
+        reason = _("too narrow");
+    if (is_page && !reason)
         ceduo_page_draw(&page, canvas, *area, 0);
-    if (!why)
+    if (!reason)
         return;
-    int width = ceduo_canvas_label_width(canvas, why), column = width < area->width ? (area->width - width) / 2 : 0;
-    ceduo_canvas_draw_text(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT, why);
+    int width = ceduo_canvas_label_width(canvas, reason), column = width < area->width ? (area->width - width) / 2 : 0;
+    ceduo_canvas_draw_text(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT,
+                           reason);
 }
 
 /* Share of rocks that stop farther down: observed curve over the band of simulated rocks. */

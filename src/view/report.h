@@ -146,7 +146,7 @@ enum ceduo_measure_kind {
     CEDUO_STEMS_HIT,
     CEDUO_MEASURE_KINDS
 };
-struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind what, const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind kind, const struct ceduo_arrivals *arrivals);
 
 /* Rocks per 1000 released at the fence of a control: above it, through it, both, either, or held with much energy. */
 enum ceduo_fence_share {
@@ -169,7 +169,7 @@ uint64_t ceduo_rocks_unfinished(const struct ceduo_arrivals *arrivals);
 
 /* Distribution over arriving rocks: m/s, J, m above ground. */
 enum ceduo_spread { CEDUO_ARRIVAL_SPEED, CEDUO_ARRIVAL_ENERGY, CEDUO_ARRIVAL_HEIGHT };
-const struct ceduo_distribution *ceduo_arrival_distribution(enum ceduo_spread what, const struct ceduo_arrivals *arrivals);
+const struct ceduo_distribution *ceduo_arrival_distribution(enum ceduo_spread kind, const struct ceduo_arrivals *arrivals);
 
 /* True if more rocks may change the test of energy. `arrivals` may be NULL. */
 bool ceduo_is_close_call(const struct ceduo_arrivals *arrivals);

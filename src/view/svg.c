@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/utf8.h"
 
 #define CELL_WIDTH  8                  /* width of a cell, units */

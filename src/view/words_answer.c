@@ -156,7 +156,7 @@ struct ceduo_subject ceduo_subject_find(const struct ceduo_report *report, size_
                               .wooded = forest ? ceduo_result_wooded(r, option, control) : &r->bare.arrivals[control],
                               .index = forest ? &r->options[option].controls[control] : NULL,
                               .choice = v && option < v->n ? &v->choices[option] : NULL};
-    const struct ceduo_alternative_energy *alternative = forest ? &r->options[option].others[control] : NULL;
+    const struct ceduo_alternative_energy *alternative = forest ? &r->options[option].alternatives[control] : NULL;
     s.alternative = alternative && alternative->known && alternative->stems ? alternative : NULL;
     s.today = ceduo_measure_exceeding(s.place, s.wooded);
     s.mean = ceduo_measure_share(s.choice ? s.choice->mean : (struct ceduo_mean_share){NAN, NAN});

@@ -114,14 +114,14 @@ static void append_leaders(struct text *text, const struct ceduo_scene *scene, c
 
 /* Append "In years 1 to 25 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
 static void append_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, bool rotation,
-                        const char *when)
+                        const char *period_name)
 {
     const struct ceduo_leader *leader = rotation ? &v->rotation : &v->today;
     const char *rocks = v->accepted ? _("dangerous rocks") : _("rocks");
     double mean = get_mean(v, rotation, leader->best);
     LOCAL_TEXT(names);
     LOCAL_TEXT(numbers);
-    ceduo_text_format(text, "%s ", when);
+    ceduo_text_format(text, "%s ", period_name);
     append_leaders(&names, scene, v, leader, rotation, true);
     append_leaders(&numbers, scene, v, leader, rotation, false);
     if (leader->rivals + 1 == v->n && leader->equal)
@@ -143,19 +143,19 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
         ceduo_text_append(text, _("The forest cannot be assessed: no rock arrives, even without it."));
     LOCAL_TEXT(period);
     ceduo_text_format(&period, _("In years %u to %u"), get_window(v)->first, get_window(v)->last);
-    const char *when = period.bytes;
+    const char *period_name = period.bytes;
     bool years = v->rotation.known && !v->rotation.uneven && get_window(v)->kind != CEDUO_WINDOW_CONSTANT;
     bool today = v->today.known && !v->today.uneven;
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
     if (years && today && a->best == b->best && a->rivals == 0 && b->rivals == 0) {
         /* one option is clearly best over the years and today */
-        ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), when,
+        ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), period_name,
                           NAME_OF(&scene->options[a->best]), v->accepted ? _("dangerous rocks") : _("rocks"),
                           get_mean(v, true, a->best), get_mean(v, false, a->best));
         return;
     }
     if (years)
-        append_best(text, scene, v, true, when);
+        append_best(text, scene, v, true, period_name);
     if (years && today)
         ceduo_text_append_char(text, '\n');
     if (today)
@@ -168,7 +168,7 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 
 void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
-    const struct ceduo_alternative_energy *o = &r->options[option].others[control];
+    const struct ceduo_alternative_energy *o = &r->options[option].alternatives[control];
     const struct ceduo_arrivals *a = &o->arrivals;
     const char *law = ceduo_words_law(ceduo_energy_words.names[o->model]);
     if (!o->known || !o->stems)
@@ -194,11 +194,12 @@ void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r
                                  (unsigned long long)ceduo_rocks_released(a));
 }
 
-static double get_share(const struct ceduo_result *r, size_t option, bool by_other_law)
+static double get_share(const struct ceduo_result *r, size_t option, bool by_alternative_law)
 {
-    const struct ceduo_alternative_energy *o = &r->options[option].others[r->last_control];
+    const struct ceduo_alternative_energy *o = &r->options[option].alternatives[r->last_control];
     const struct ceduo_arrivals *other_arrivals = o->known ? &o->arrivals : NULL;
-    return 1000 * ceduo_share_judged(by_other_law ? other_arrivals : ceduo_result_wooded(r, option, r->last_control)).mean;
+    return 1000 *
+           ceduo_share_judged(by_alternative_law ? other_arrivals : ceduo_result_wooded(r, option, r->last_control)).mean;
 }
 
 void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_sentence_sink *sink,
@@ -216,8 +217,8 @@ void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo
                               remaining);
             i = v->reversals_count;
         } else {
-            bool stems = r->options[a].others[r->last_control].stems;
-            const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].others[r->last_control];
+            bool stems = r->options[a].alternatives[r->last_control].stems;
+            const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].alternatives[r->last_control];
             ceduo_text_format(&sentence,
                               _("Ranking of '%s' and '%s' depends on the energy law. By the law of the scene %.0f and %.0f of "
                                 "1000, by %s %.0f and %.0f."),

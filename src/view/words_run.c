@@ -42,20 +42,20 @@ static void warn_ground(const struct ceduo_result *r, ceduo_sentence_sink *sink,
         enum ceduo_terrain terrain = ceduo_terrain(bare);
         LOCAL_TEXT(name);
         ceduo_words_place(&name, &r->scene->controls[c]);
-        const char *where = ceduo_text_string(&name);
+        const char *control_name = ceduo_text_string(&name);
         if (terrain == CEDUO_TERRAIN_BENCH)
             ceduo_words_format(
                 sink, context,
                 _("%s: few rocks arrive without forest, though it lies under a reach angle of %.0f\xc2\xb0. A bench of "
                   "%.0f m may hold them: check on the ground that it does."),
-                where, t->reach * DEGREES, t->bench);
+                control_name, t->reach * DEGREES, t->bench);
         if (terrain == CEDUO_TERRAIN_FAR)
             ceduo_words_format(
                 sink, context,
                 _("%s: %.0f of 1000 rocks arrive without forest, though it lies under a shadow angle of only "
                   "%.0f\xc2\xb0. Evans and Hungr (1993) suggest 27.5\xc2\xb0 as the smallest: check the friction of "
                   "the ground."),
-                where, ceduo_measure_arriving(bare).value, t->shadow * DEGREES);
+                control_name, ceduo_measure_arriving(bare).value, t->shadow * DEGREES);
         if (speed > CEDUO_SPEED_USUAL)
             ceduo_words_format(sink, context,
                                r->scene->simulation.law == CEDUO_LAW_LUMPED
@@ -63,13 +63,13 @@ static void warn_ground(const struct ceduo_result *r, ceduo_sentence_sink *sink,
                                        "lumped has no limit of speed on long slopes: use crsp.")
                                    : _("%s: the mean speed without forest is %.0f m/s, and more than %.0f is unusual. Check "
                                        "roughness and friction of the ground."),
-                               where, speed, CEDUO_SPEED_USUAL);
+                               control_name, speed, CEDUO_SPEED_USUAL);
         if (height > CEDUO_HEIGHT_USUAL)
             ceduo_words_format(
                 sink, context,
                 _("%s: 1 rock in 20 passes more than %.0f m above the ground without forest, and more than %.0f m is unusual. "
                   "Check roughness and restitution of the ground, and the profile."),
-                where, height, CEDUO_HEIGHT_USUAL);
+                control_name, height, CEDUO_HEIGHT_USUAL);
     }
 }
 

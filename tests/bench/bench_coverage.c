@@ -64,7 +64,7 @@ static struct ceduo_run *simulate(const struct paper_site *site, const struct ce
 {
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.option = option;
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     return simulate_run(&def, rocks);
 }
 

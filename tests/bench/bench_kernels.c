@@ -51,7 +51,7 @@ static void simulate(const struct ceduo_scene *scene, const struct ceduo_option 
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     uint64_t reached;
     def.option = option;
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     def.kernel = m->kernel;
     double start = processor_s();
     struct ceduo_run *run = simulate_run(&def, rocks);

@@ -22,7 +22,7 @@ static double measure_time(const struct ceduo_scene *scene, enum ceduo_kernel ke
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.kernel = kernel;
     def.threads = 1;
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     struct ceduo_run *run = simulate_run(&def, rocks);
     *contacts = ceduo_run_contacts(run);
     double seconds = processor_s() - start;

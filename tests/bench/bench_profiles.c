@@ -66,7 +66,7 @@ static void measure(const struct ceduo_scene *site, const struct profile *p, uin
     scene.slope = p->slope;
     scene.slope.facets = facets;
     struct ceduo_run_def def = ceduo_run_def_default(&scene);
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     struct ceduo_run *run;
     double start = ceduo_clock();
     if (ceduo_run_create(&def, &run) != CEDUO_OK)

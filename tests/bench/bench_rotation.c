@@ -16,7 +16,7 @@ static void simulate(const struct ceduo_scene *scene, unsigned threads, uint64_t
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.threads = threads;
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     struct ceduo_pool *pool;
     struct ceduo_run *run;
     struct ceduo_simulated bare;

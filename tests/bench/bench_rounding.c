@@ -51,7 +51,7 @@ static void simulate(struct ceduo_tracer *f, uint64_t rock, int mode, struct tra
     t->contacts = 0;
     fesetround(mode);
     enum ceduo_status status =
-        ceduo_tracer_run(f, rock, &(struct ceduo_trajectory_callbacks){.piece = note, .context = t}, &t->way, &t->crossing);
+        ceduo_tracer_run(f, rock, &(struct ceduo_trajectory_callbacks){.segment = note, .context = t}, &t->way, &t->crossing);
     fesetround(FE_TONEAREST);
     if (status != CEDUO_OK)
         fail("no memory");

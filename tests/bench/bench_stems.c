@@ -20,7 +20,7 @@ static void simulate(struct ceduo_scene scene, struct kind *k, uint64_t rocks, s
     scene.simulation.contact_model = k->model;
     struct ceduo_run_def def = ceduo_run_def_default(&scene);
     def.option = k->model == CEDUO_INDEX ? NULL : &scene.options[0];
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     double start = ceduo_clock();
     struct ceduo_run *run = simulate_run(&def, rocks);
     k->seconds[repeat] = ceduo_clock() - start;

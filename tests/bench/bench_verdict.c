@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 #include "frame.h"
 #include "study/verdict.h"
 
@@ -40,11 +40,11 @@ static void record(const struct ceduo_scene *scene, struct ceduo_pool **pool, un
     struct ceduo_results answer;
     struct ceduo_verdict verdict;
     q.rocks = rocks[step];
-    q.run.rocks_most = rocks[STEPS - 1];
+    q.run.rocks_max = rocks[STEPS - 1];
     q.run.threads = threads;
     q.run.arrivals_only = true;
     q.years = true;
-    q.years_most = YEAR_STEP;
+    q.years_max = YEAR_STEP;
     if (ceduo_simulate_request(&q, pool, &answer) != CEDUO_OK ||
         ceduo_compare_options(answer.result, answer.years, NULL, &verdict) != CEDUO_OK)
         fail("the question failed");

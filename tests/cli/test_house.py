@@ -17,10 +17,10 @@ KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene
          "view": "base scene core study io", "model": "base scene core study io",
          "tui": "base scene core study io view model", "cli": "base scene core study io view model tui"}
 # The folders of core likewise.
-CORE = {"stand": "", "wood": "stand", "walk": "stand wood", "runs": "stand wood walk"}
+CORE = {"stand": "", "forest": "stand", "walk": "stand forest", "runs": "stand forest walk"}
 # The room of each public header: a header depends on what its room may use.
 HEADERS = {"base": "flag", "scene": "rock scene slope stand status",
-           "core": "adc assess blocks fence hazard key other pool question record result rotation run statistics trajectory variants years yield",
+           "core": "adc alternative_law assess blocks fence hazard key pool record request result rotation run statistics trajectory variants years yield",
            "study": "calibrate uncertainty find naslund observe surface survey", "io": "ceduo read"}
 SCIENCE = ("scene", "core")  # uses nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
@@ -28,7 +28,7 @@ OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm
 # that round equally everywhere. A file is named by its room, in any of its folders; each energy law is one of them.
 TRAJECTORY = ("base/elementary", "scene/rock", "scene/slope", "scene/stand", "core/adc", "core/energy",
               "core/ground", "core/prepared", "core/rotation", "core/run_simulate", "core/stems", "core/trajectory",
-              "core/walk", "core/lanes", "core/kernel", "core/kernel_avx2", "core/kernel_avx512", "core/wood")
+              "core/walk", "core/lanes", "core/kernel", "core/kernel_avx2", "core/kernel_avx512", "core/forest")
 DIFFERS = re.compile(r"(a?(sin|cos|tan)h?|atan2|sincos|exp(2|10|m1)?|log(2|10|1p)?|pow|[lt]?gamma|cbrt|hypot|erfc?|"
                      r"gsl_(cdf|ran|sf)_.*)[fl]?$")
 CC = os.environ.get("CC", "cc")
@@ -164,8 +164,8 @@ h = hash_bytes(&s, sizeof s);
 h = hash_bytes(&p, sizeof p);
 static const struct field f[] = {TEXT("title", NAMED(N_("title")), MEMBER(scene_draft, scene.title), NO_RUN, "")};
 static const struct field f[] = {TEXT("title", NAMED(N_("title")), MEMBER(scene_draft, scene.title), REQUIRED, "")};
-static const struct field f[] = {KIND_ROW(FIELD_WORDS, "one_of", NAMED(""), LIST(uncertainty, one_of, one_of_count), 0, NULL, "", NULL, NULL)};
-static const struct field f[] = {KIND_ROW(FIELD_FLAG, "x", NAMED(""), MEMBER(ceduo_belt, felled), 0, NULL, "", NULL, NULL)};
+static const struct field f[] = {WORD_LIST("one_of", NAMED(""), LIST(uncertainty_row, one_of, one_of_count), 0, "")};
+static const struct field f[] = {FLAG("x", .shown = NAMED(""), MEMBER(ceduo_belt, felled))};
 """
 GOOD = (0, 3, 5, 6, 10, 13, 15, 18, 21)
 

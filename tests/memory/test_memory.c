@@ -10,8 +10,8 @@
 #include "ceduo/uncertainty.h"
 #include "physics/paper_site.h"
 #include "study/inputs.h"
+#include "study/reliability.h"
 #include "study/snapshot.h"
-#include "study/sure.h"
 #include "study/verdict.h"
 
 /* ---- runs ---- */
@@ -149,8 +149,8 @@ static void reverse_order(struct ceduo_result *r)
     const struct ceduo_estimate worse = {0.5, 0.1, NAN, NAN}, better = {-0.5, 0.1, NAN, NAN};
     r->options[1].differences[0].exceed = worse;
     for (size_t i = 0; i < 2; i++)
-        r->options[i].others[0] = (struct ceduo_alternative_energy){.known = true};
-    r->options[1].others[0].to_first.exceed = better;
+        r->options[i].alternatives[0] = (struct ceduo_alternative_energy){.known = true};
+    r->options[1].alternatives[0].to_first.exceed = better;
 }
 
 /* Two options, one cut in the second of the years, and blocks of several sizes. */
@@ -261,7 +261,7 @@ static bool answer_both_laws(void)
     site.scene.controls = controls;
     site.scene.controls_count = 2;
     struct ceduo_request q = ceduo_request_default(&site.scene);
-    q.run.other_energy = true;
+    q.run.alternative_energy = true;
     return answer_request(q);
 }
 
@@ -562,7 +562,7 @@ TEST(views_of_runs)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    def.rocks_most = 40;
+    def.rocks_max = 40;
     assert_int_equal(ceduo_pool_create(&def, &viewed), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(viewed), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(viewed, 40), CEDUO_OK);

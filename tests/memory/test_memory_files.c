@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/must.h"
+#include "base/oom.h"
 #include "ceduo/key.h"
 #include "folder.h"
 #include "io/file.h"

@@ -64,7 +64,7 @@ static bool ask_of_blocks(void)
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     q.rocks = ROCKS;
     q.run.threads = 1;
-    q.run.other_energy = true;
+    q.run.alternative_energy = true;
     q.years = true;
     q.window = (struct ceduo_window){.last = 1, .step = 1};
     enum ceduo_status status = ceduo_simulate_request(&q, NULL, &answer);

@@ -22,7 +22,7 @@ int main(int argc, char **argv)
         site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
         def.threads = threads;
-        def.rocks_most = 10000;
+        def.rocks_max = 10000;
         struct ceduo_run *run;
         struct ceduo_arrivals a;
         if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, 10000) != CEDUO_OK ||

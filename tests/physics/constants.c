@@ -24,7 +24,7 @@ static void show(const char *name, const struct ceduo_scene *scene, const struct
     struct ceduo_arrivals a;
     struct ceduo_ends ends;
     def.option = option;
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK ||
         ceduo_run_arrivals(run, 0, &a) != CEDUO_OK || ceduo_run_ends(run, &ends) != CEDUO_OK)
         fail();

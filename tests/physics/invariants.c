@@ -236,7 +236,7 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     }
     w.k = s->scene.simulation.law == CEDUO_LAW_LUMPED ? 0 : w.rock.k;
     assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11,
-                                          &(struct ceduo_trajectory_callbacks){.piece = check_segment, .context = &w}, &way,
+                                          &(struct ceduo_trajectory_callbacks){.segment = check_segment, .context = &w}, &way,
                                           &crossing),
                      CEDUO_OK);
     if (w.bad || !isfinite(way.x + way.z) || (w.pieces > 0 && (way.x != w.last.x1 || way.z != w.last.z1)))

@@ -276,6 +276,6 @@ enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way 
 {
     to->count = 0;
     return ceduo_trajectory_run(&s->scene, NULL, 0,
-                                &(struct ceduo_trajectory_callbacks){.piece = line_keep_piece, .context = to}, &to->way,
+                                &(struct ceduo_trajectory_callbacks){.segment = line_keep_piece, .context = to}, &to->way,
                                 &to->crossing);
 }

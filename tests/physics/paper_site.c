@@ -12,7 +12,7 @@ const double paper_y[PAPER_VERTICES] = {126, 106, 86, 76, 66, 61, 56, 46, 36, 26
 static const double first_theta[2] = {0.25, 0.001}, first_rn[2] = {0.31, 0.40}, first_rt[2] = {0.87, 0.90};
 
 const struct ceduo_growth paper_growth = {
-    .shoots = {.16, .022, 14, .035}, .trees = {.45, .014, 20, .03}, .shoots_young = 16, .shoots_old = 3, .sdi_most = 1000};
+    .shoots = {.16, .022, 14, .035}, .trees = {.45, .014, 20, .03}, .shoots_young = 16, .shoots_old = 3, .sdi_max = 1000};
 
 double paper_theta(size_t segment)
 {

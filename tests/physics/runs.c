@@ -21,7 +21,7 @@ struct ceduo_run *run_option(const struct ceduo_scene *scene, const struct ceduo
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.option = option;
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     def.threads = threads;
     return make_run(&def, rocks);
 }
@@ -55,7 +55,7 @@ void expect_same_however(struct ceduo_run_def def, uint64_t rocks)
 {
     static const unsigned threads[] = {2, 5, 16};
     const uint64_t to[] = {999, 1024, rocks / 4, rocks / 4, 3 * rocks / 5, rocks};
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     def.threads = 1;
     LOCAL(ceduo_run, one) = make_run(&def, rocks);
     for (size_t t = 0; t < LENGTH(threads); t++) {
@@ -88,7 +88,7 @@ static void count_hit(void *context, const struct ceduo_stem_encounter *stem)
 
 struct followed expect_as_followed(struct ceduo_run_def def, uint64_t rocks)
 {
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     LOCAL(ceduo_run, run) = make_run(&def, rocks);
     LOCAL(ceduo_tracer, f) = ceduo_tracer_create(def.scene, def.option);
     const double *energies = ceduo_run_samples(run, 0, CEDUO_SAMPLE_ENERGY);

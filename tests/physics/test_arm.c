@@ -397,7 +397,7 @@ TEST(speed_after_an_impact_is_the_mean_over_all_rotations)
     double sum = 0, squares = 0;
     for (uint64_t rock = 0; rock < ROCKS; rock++) {
         way.count = 0;
-        struct ceduo_trajectory_callbacks watch = {.piece = line_keep_piece, .context = &way};
+        struct ceduo_trajectory_callbacks watch = {.segment = line_keep_piece, .context = &way};
         assert_int_equal(ceduo_trajectory_run(&s.scene, NULL, rock, &watch, &way.way, &way.crossing), CEDUO_OK);
         double vz = way.pieces[1].rolls ? 0 : way.pieces[1].vz;
         sum += vz;

@@ -46,7 +46,7 @@ static void note(void *context, const struct ceduo_trajectory_segment *piece)
 
 static struct ceduo_trajectory follow(struct ceduo_tracer *follower, uint64_t rock, struct flights *f)
 {
-    const struct ceduo_trajectory_callbacks watch = {.piece = note, .context = f};
+    const struct ceduo_trajectory_callbacks watch = {.segment = note, .context = f};
     struct ceduo_trajectory way;
     f->n = 0;
     assert_int_equal(ceduo_tracer_run(follower, rock, &watch, &way, NULL), CEDUO_OK);

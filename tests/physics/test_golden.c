@@ -221,7 +221,7 @@ TEST_WITH(two_contacts_on_the_slope_of_table_3, open_paper, NULL)
     site.scene.release.vz = ceduo_number(0);
     walked.count = 0;
     assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0,
-                                          &(struct ceduo_trajectory_callbacks){.piece = line_keep_piece, .context = &walked},
+                                          &(struct ceduo_trajectory_callbacks){.segment = line_keep_piece, .context = &walked},
                                           &walked.way, NULL),
                      CEDUO_OK);
     EXPECT(walked.count, >=, 3);

@@ -251,7 +251,7 @@ TEST(few_rocks_give_bounds)
     ROWS(EXPECT_NEAR, (h.reach.mean, 0.0015, 1e-15), (h.accepted.mean, 0.001, 1e-15),
          (ceduo_hazard_judged_rate(&h).mean, 0.001, 1e-15));
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
-        EXPECT_NEAR(h.intensity[i].within.mean, 0.0005, 1e-15);
+        EXPECT_NEAR(h.intensity[i].rate.mean, 0.0005, 1e-15);
     assert_true(isnan(h.returns[3].energy.mean) &&
                 isnan(h.returns[3].energy.lo)); /* 0.0015 a year: less than one in 300 years */
     EXPECT_NEAR(h.returns[3].energy.hi, 1e5,
@@ -262,7 +262,7 @@ TEST(few_rocks_give_bounds)
     EXPECT_NEAR(ceduo_hazard_judged_rate(&h).mean, 0.0015, 1e-15);
     struct ceduo_hazard zeros = ceduo_hazard_none();
     ceduo_hazard_compare(&h, &zeros);
-    assert_true(isnan(h.left) && isnan(h.intensity[0].left));
+    assert_true(isnan(h.remaining_share) && isnan(h.intensity[0].remaining_share));
 }
 
 /* Kish's effective number: 500 rocks of weight 1.9 and 500 of 0.1 equal 1000²/(500 (1.9² + 0.1²)) rocks of equal weight. */
@@ -283,7 +283,7 @@ TEST(a_curve_ends_at_its_last_energy)
     struct ceduo_hazard_curve curve;
     assert_true(ceduo_hazard_read(&all, energies, 2, NAN, &h, &curve));
     assert_int_equal(curve.count, CEDUO_HAZARD_ENERGIES);
-    EXPECT_NEAR(curve.at[CEDUO_HAZARD_ENERGIES - 1].rate.mean, 1, 0);
+    EXPECT_NEAR(curve.points[CEDUO_HAZARD_ENERGIES - 1].rate.mean, 1, 0);
 }
 
 /* A rock does not exceed its own energy; a class includes its lower limit; a rate equal to 1/period meets a return period: one
@@ -295,10 +295,14 @@ TEST(at_a_limit)
     struct ceduo_hazard h;
     struct ceduo_hazard_curve curve;
     assert_true(ceduo_hazard_read(&all, energies, 2, 3e5, &h, &curve));
-    ROWS(EXPECT_NEAR, (h.accepted.mean, 0, 0), (h.intensity[0].within.mean, 0, 0), (h.intensity[1].within.mean, 0.01, 1e-15),
-         (h.intensity[2].within.mean, 0.01, 1e-15));
+    ROWS(EXPECT_NEAR, (h.accepted.mean, 0, 0), (h.intensity[0].rate.mean, 0, 0), (h.intensity[1].rate.mean, 0.01, 1e-15),
+         (h.intensity[2].rate.mean, 0.01, 1e-15));
     for (size_t i = 0; i < curve.count; i++)
-        EXPECT_NEAR(curve.at[i].rate.mean, curve.at[i].energy < 3e4 ? 0.02 : curve.at[i].energy < 3e5 ? 0.01 : 0, 1e-15);
+        EXPECT_NEAR(curve.points[i].rate.mean,
+                    curve.points[i].energy < 3e4   ? 0.02
+                    : curve.points[i].energy < 3e5 ? 0.01
+                                                   : 0,
+                    1e-15);
     assert_int_equal(h.returns[2].years, 100);
     EXPECT_NEAR(h.returns[2].energy.mean, 3e5, 0);
     assert_true(isnan(h.returns[2].energy.hi)); /* none of 1000 allows up to 0.038 per year: no upper energy */
@@ -318,7 +322,7 @@ TEST(no_rock_arrives)
     assert_int_equal(curve.count, 1);
     for (size_t i = 0; i < CEDUO_RETURNS; i++)
         assert_true(isnan(h.returns[i].energy.mean) && isnan(h.returns[i].energy.lo) && isnan(h.returns[i].energy.hi));
-    assert_true(isnan(h.left));
+    assert_true(isnan(h.remaining_share));
 }
 
 /* A thousand rocks: half small, each for 1.9 blocks, half large, each for 0.1. None in a thousand is at most 38 of 10000. Only

@@ -255,12 +255,12 @@ static const struct field log_fields[] = {
 static const struct field growth_fields[] = {
     FIELD(ceduo_growth, shoots_young, NUMBER, YEARS),
     FIELD(ceduo_growth, shoots_old, NUMBER, YEARS),
-    FIELD(ceduo_growth, sdi_most, NUMBER, YEARS),
+    FIELD(ceduo_growth, sdi_max, NUMBER, YEARS),
     FIELD(ceduo_growth, stump_years, WORD, YEARS),
 };
 
 static const struct field curve_fields[] = {
-    FIELD(ceduo_curve, dbh_most, NUMBER, YEARS),
+    FIELD(ceduo_curve, dbh_max, NUMBER, YEARS),
     FIELD(ceduo_curve, dbh_rate, NUMBER, YEARS),
     FIELD(ceduo_curve, height_max, NUMBER, YEARS),
     FIELD(ceduo_curve, height_rate, NUMBER, YEARS),

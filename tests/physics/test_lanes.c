@@ -72,7 +72,7 @@ static struct ceduo_run *run_with(struct ceduo_run_def def, enum ceduo_kernel ke
 {
     struct ceduo_run *run;
     def.kernel = kernel;
-    def.rocks_most = rocks;
+    def.rocks_max = rocks;
     assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
     assert_int_equal(ceduo_run_extend(run, first), CEDUO_OK);
     assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
@@ -506,7 +506,7 @@ TEST(rocks_stop_at_a_raised_flag)
         struct ceduo_run_def def = ceduo_run_def_default(&line.scene);
         def.cancel = &flag;
         def.kernel = lanes[i];
-        def.rocks_most = 10000;
+        def.rocks_max = 10000;
         LOCAL(ceduo_run, run);
         assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
         assert_int_equal(pthread_create(&thread, NULL, raise_soon, &flag), 0);

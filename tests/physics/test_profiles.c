@@ -279,7 +279,7 @@ TEST(a_callback_does_not_change_rolls)
             for (uint64_t rock = 0; rock < 100; rock++) {
                 struct ceduo_trajectory v, w;
                 struct ceduo_crossing c, d;
-                struct ceduo_trajectory_callbacks watch = {.piece = ignore_segment};
+                struct ceduo_trajectory_callbacks watch = {.segment = ignore_segment};
                 assert_int_equal(ceduo_tracer_run(f, rock, NULL, &v, &c), CEDUO_OK);
                 assert_int_equal(ceduo_tracer_run(f, rock, &watch, &w, &d), CEDUO_OK);
                 equal += v.end == w.end && v.contacts == w.contacts && v.x == w.x && v.z == w.z && c.reached == d.reached &&

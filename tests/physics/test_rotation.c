@@ -73,10 +73,10 @@ static void expect_same_stand(const struct ceduo_stand *a, const struct ceduo_st
 
 TEST_WITH(year_0_is_the_stand_of_the_file, fresh, NULL)
 {
-    s.stand.growth.sdi_most = 1; /* a measured stand is not thinned */
+    s.stand.growth.sdi_max = 1; /* a measured stand is not thinned */
     struct ceduo_grown_stand grown = grow_stand(3, 0);
     expect_same_stand(&grown.stand, &s.stand);
-    EXPECT(grown.stand.growth.sdi_most, ==, 0);
+    EXPECT(grown.stand.growth.sdi_max, ==, 0);
     EXPECT(grown.stand.cutting.rotation, ==, 0);
     ceduo_grown_stand_release(&grown);
     assert_null(grown.stems);
@@ -94,7 +94,7 @@ TEST_WITH(an_inventory_grows_along_its_curves, fresh, NULL)
 {
     s.shoots[0].volume = .004;
     s.shoots[0].dbh_sd = .01;
-    s.stand.growth.sdi_most = 0;
+    s.stand.growth.sdi_max = 0;
     double a = -log(1 - 5. / 16) / .022, b = -log(1 - 20. / 45) / .014;
     for (unsigned t = 1; t < 200; t += 7) {
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, t);
@@ -116,7 +116,7 @@ TEST_WITH(a_given_age_overrides_the_curve, fresh, NULL)
 {
     s.shoots[0].age = 8;
     s.trees[0].age = 70;
-    s.stand.growth.sdi_most = 0;
+    s.stand.growth.sdi_max = 0;
     struct ceduo_grown_stand grown = grow_stand(INFINITY, 10);
     ROWS(expect_relative, (grown.stand.shoots[0].dbh, .05 * (1 - exp(-.022 * 18)) / (1 - exp(-.022 * 8)), 1e-14),
          (grown.stand.shoots[0].per_ha, 7500 * (3 + 13 * exp(-18. / 5)) / (3 + 13 * exp(-8. / 5)), 1e-14),
@@ -134,7 +134,7 @@ TEST_WITH(a_given_age_overrides_the_curve, fresh, NULL)
 /* If an old stool should have no shoots, they decrease by e in 5 years; if it began with none, it stays so. */
 TEST_WITH(no_old_shoots, fresh, NULL)
 {
-    s.stand.growth.sdi_most = 0;
+    s.stand.growth.sdi_max = 0;
     s.stand.growth.shoots_old = 0;
     s.stand.stools_per_ha = 1;
     assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER); /* nothing would sprout */
@@ -152,7 +152,7 @@ TEST_WITH(no_old_shoots, fresh, NULL)
 TEST_WITH(each_stool_keeps_a_shoot_for_ages, fresh, NULL)
 {
     s.stand.growth.shoots_old = 0;
-    s.stand.growth.sdi_most = 0;
+    s.stand.growth.sdi_max = 0;
     for (unsigned t = 3400; t < 4000; t += 5) {
         struct ceduo_grown_stand grown = grow_stand(INFINITY, t);
         expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-13);
@@ -169,7 +169,7 @@ TEST(a_tiny_stem_grows_like_a_new_one)
         s.shoots[0].dbh = s.trees[0].dbh = given[i][0];
         s.shoots[0].age = s.trees[0].age = given[i][1];
         s.shoots[0].volume = s.trees[0].volume = 1;
-        s.stand.growth.sdi_most = 0;
+        s.stand.growth.sdi_max = 0;
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, 10);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
         ROWS(expect_relative, (shoot->dbh, .16 * (1 - exp(-.22)), 1e-13), (shoot->height, 14 * (1 - exp(-.35)), 1e-13),
@@ -197,7 +197,7 @@ TEST_WITH(a_stem_thicker_than_its_curve_stops_growing, fresh, NULL)
 {
     s.shoots[0] = paper_stems(4000, .16, 9);
     s.trees[0] = paper_stems(60, .60, 18);
-    s.stand.growth.sdi_most = 0;
+    s.stand.growth.sdi_max = 0;
     LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, 40);
     expect_same_stand(&grown.stand, &s.stand);
 }
@@ -212,7 +212,7 @@ TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
     s.stand.cutting.retained_count = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, 5), 5);
     struct ceduo_curve *shoots = &s.stand.growth.shoots;
-    double *const numbers[] = {&shoots->dbh_most, &shoots->dbh_rate, &shoots->height_max, &shoots->height_rate};
+    double *const numbers[] = {&shoots->dbh_max, &shoots->dbh_rate, &shoots->height_max, &shoots->height_rate};
     for (size_t i = 0; i < LENGTH(numbers); i++) {
         double was = *numbers[i];
         *numbers[i] = 0;
@@ -228,7 +228,7 @@ TEST_WITH(never_less_than_one_shoot_a_stool, fresh, NULL)
     s.stand.shoots_count = 2; /* 1.2 per stool */
     s.shoots[0] = paper_stems(2000, .01, 1);
     s.shoots[1] = paper_stems(1000, .08, 7);
-    s.stand.growth.sdi_most = 0;
+    s.stand.growth.sdi_max = 0;
     bool reached = false;
     for (unsigned t = 1; t < 60; t++) {
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(INFINITY, t);
@@ -280,7 +280,7 @@ TEST_WITH(by_default_a_stand_is_cut_at_rotation_age, fresh, NULL)
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(75 + log(1 - 20. / 45) / .014));
     s.stay[1] = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(50 + log(1 - 20. / 45) / .014));
-    s.stand.growth = (struct ceduo_growth){.sdi_most = 0};
+    s.stand.growth = (struct ceduo_growth){.sdi_max = 0};
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), CEDUO_NEVER);
     s.stand.cutting.retained_count = 0;
     s.trees[0].age = 10; /* known without a curve */
@@ -291,7 +291,7 @@ TEST_WITH(by_default_a_stand_is_cut_at_rotation_age, fresh, NULL)
 
 TEST_WITH(a_simple_coppice_after_its_cuts, fresh, NULL)
 {
-    s.stand.growth.sdi_most = 0;
+    s.stand.growth.sdi_max = 0;
     for (unsigned tau = 0; tau < 25; tau++) {
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(4, 4 + tau);
         const struct ceduo_stand *g = &grown.stand;
@@ -320,7 +320,7 @@ TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
     s.stand.cutting = (struct ceduo_cutting){13, 3, 2, s.stay};
     s.stay[0] = 0; /* no class */
     s.stand.growth.shoots_old = 6;
-    s.stand.growth.sdi_most = 0;
+    s.stand.growth.sdi_max = 0;
     for (unsigned year = 0; year < 100; year++) {
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(0, year);
         const struct ceduo_stand *g = &grown.stand;
@@ -389,10 +389,10 @@ TEST(the_density_index)
     init();
     s.trees[0].dbh_sd = .02;
     expect_relative(ceduo_stems_sdi(s.trees, 2), index_by_hand(s.trees, 2), 1e-13);
-    s.stand.growth.sdi_most = 800;
+    s.stand.growth.sdi_max = 800;
     expect_relative(ceduo_growing_space_used(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 280,
                     1e-13);
-    s.stand.growth.trees_sdi_most = 500;
+    s.stand.growth.trees_sdi_max = 500;
     expect_relative(ceduo_growing_space_used(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 500,
                     1e-13);
 }
@@ -400,7 +400,7 @@ TEST(the_density_index)
 TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
 {
     s.stand.trees_count = s.stand.cutting.retained_count = 0;
-    s.stand.growth.sdi_most = 250;
+    s.stand.growth.sdi_max = 250;
     unsigned thinned = 0, died = 0;
     for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index is proportional to the number */
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(0, tau);
@@ -416,8 +416,8 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     EXPECT(died, >, 0);
     EXPECT(died, <, thinned);
     init();
-    s.stand.growth.sdi_most = 600; /* the trees use their part of it */
-    s.stand.growth.trees_sdi_most = 400;
+    s.stand.growth.sdi_max = 600; /* the trees use their part of it */
+    s.stand.growth.trees_sdi_max = 400;
     struct ceduo_grown_stand grown = grow_stand(0, 24);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
     EXPECT(grown.stand.trees[1].per_ha, ==, 30);
@@ -425,7 +425,7 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     EXPECT(trees, >, 50);
     expect_relative(index_by_hand(grown.stand.shoots, grown.stand.shoots_count), 600 * (1 - trees / 400), 1e-12);
     ceduo_grown_stand_release(&grown);
-    s.stand.growth.trees_sdi_most = trees / 2; /* the trees alone exceed it */
+    s.stand.growth.trees_sdi_max = trees / 2; /* the trees alone exceed it */
     grown = grow_stand(0, 24);
     EXPECT(ceduo_stand_shoots(&grown.stand), ==, 0);
     EXPECT(grown.stand.stools_per_ha, ==, 0);
@@ -465,7 +465,7 @@ static void random_stand(void)
                              .growth = {random_curve(.16), random_curve(.45), old + uniform(0, 15), old, uniform(-500, 2000),
                                         uniform(0, 1) < .5 ? 0 : uniform(100, 2000), 0},
                              .cutting = {(unsigned)uniform(1, 40), (unsigned)uniform(0, 5), (size_t)uniform(0, 5), s.stay}};
-    stand->growth.sdi_most = fmax(0, stand->growth.sdi_most);
+    stand->growth.sdi_max = fmax(0, stand->growth.sdi_max);
     stand->shoots_count = stand->stools_per_ha > 0 ? (size_t)uniform(1, 5) : 0;
     for (size_t i = 0; i < stand->shoots_count; i++)
         s.shoots[i] = paper_stems(stand->stools_per_ha * uniform(1, 6) / (double)stand->shoots_count, uniform(.01, .18), 5);
@@ -507,10 +507,10 @@ TEST(no_computed_stand_is_too_dense)
     for (int i = 0; i < STANDS; i++) {
         random_stand();
         const struct ceduo_growth *g = &s.stand.growth;
-        for (unsigned year = 1; g->sdi_most > 0 && year < YEARS; year += 4) {
+        for (unsigned year = 1; g->sdi_max > 0 && year < YEARS; year += 4) {
             LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = grow_stand(NAN, year);
-            double all = g->trees_sdi_most > 0 ? g->trees_sdi_most : .35 * g->sdi_most;
-            double max = g->sdi_most * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
+            double all = g->trees_sdi_max > 0 ? g->trees_sdi_max : .35 * g->sdi_max;
+            double max = g->sdi_max * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
             double sdi = index_by_hand(grown.stand.shoots, grown.stand.shoots_count), shoots = ceduo_stand_shoots(&grown.stand);
             EXPECT(sdi, <=, max * (1 + 1e-9));
             thinned += max > 0 && fabs(sdi - max) < 1e-9 * max;

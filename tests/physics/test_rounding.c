@@ -119,7 +119,7 @@ static struct ceduo_arrivals arrive(const struct ceduo_scene *s, int mode, doubl
     struct ceduo_run_def def = ceduo_run_def_default(s);
     struct ceduo_run *run;
     def.threads = 1;
-    def.rocks_most = ROCKS;
+    def.rocks_max = ROCKS;
     assert_int_equal(fesetround(mode), 0);
     enum ceduo_status made = ceduo_run_create(&def, &run);
     enum ceduo_status done = made == CEDUO_OK ? ceduo_run_extend(run, ROCKS) : made;

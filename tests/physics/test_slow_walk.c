@@ -57,7 +57,7 @@ static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct tr
     struct ceduo_crossing c;
     memset(t, 0, sizeof *t);
     assert_int_equal(ceduo_trajectory_run(scene, NULL, rock,
-                                          &(struct ceduo_trajectory_callbacks){.piece = note_piece, .context = t}, &way, &c),
+                                          &(struct ceduo_trajectory_callbacks){.segment = note_piece, .context = t}, &way, &c),
                      CEDUO_OK);
     t->contacts = way.contacts;
     t->end = way.contacts > CONTACTS ? -1 : (int)way.end;

@@ -366,7 +366,7 @@ static struct first_contact first_contacts(const struct ceduo_scene *scene)
 {
     struct first_contact f = {0};
     for (uint64_t rock = 0; rock < 20000; rock++) {
-        const struct ceduo_trajectory_callbacks watch = {.piece = check_first_contact, .context = &f};
+        const struct ceduo_trajectory_callbacks watch = {.segment = check_first_contact, .context = &f};
         struct ceduo_trajectory w;
         f.seen = false;
         assert_int_equal(ceduo_trajectory_run(scene, NULL, rock, &watch, &w, NULL), CEDUO_OK);

@@ -127,7 +127,7 @@ TEST(a_hit_scales_speed_and_spin_with_the_remaining_energy)
             s.mass = sweep.way.rock.mass;
             s.moment = spins ? sweep.way.rock.moment : 0;
             s.left = NAN;
-            sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.piece = after_hit, .stem = at_hit, .context = &s});
+            sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.segment = after_hit, .stem = at_hit, .context = &s});
             stopped += sweep.way.end == CEDUO_STOPPED_BY_STEMS;
         }
         sweep_end();
@@ -252,7 +252,7 @@ TEST(a_stem_is_hit_if_the_rock_is_lower_over_a_broken_slope)
     for (uint64_t rock = 0; rock < 1000; rock++) {
         pieces.count = 0;
         sweep_watched(
-            rock, &(struct ceduo_trajectory_callbacks){.piece = note_piece, .stem = stem_beside_pieces, .context = &pieces});
+            rock, &(struct ceduo_trajectory_callbacks){.segment = note_piece, .stem = stem_beside_pieces, .context = &pieces});
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_encounter *s = &sweep.stems[i];
             double above = height_above_ground(&pieces, s->x);

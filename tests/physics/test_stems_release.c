@@ -118,7 +118,7 @@ TEST(ground_covered_twice_has_its_stems_once)
     sweep_begin();
     for (uint64_t rock = 0; rock < 2500; rock++) {
         struct cover c = {from, from, 0, 1};
-        sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.piece = cover_piece, .stem = cover_stem, .context = &c});
+        sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.segment = cover_piece, .stem = cover_stem, .context = &c});
         assert_int_equal(sweep.way.end, CEDUO_AT_REST);
         ROWS(EXPECT, (c.turns, >, 10), (c.lo, >, 200), (c.lo, <, 320), (c.hi, >, 500));
         size_t after = 0;

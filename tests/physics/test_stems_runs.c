@@ -242,7 +242,7 @@ TEST(a_longer_run_keeps_its_figures)
 {
     open_sides();
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    def.rocks_most = 1500;
+    def.rocks_max = 1500;
     struct ceduo_run *longer, *alone = run_option(&site.scene, &sides.options[1], 1500, 1);
     struct ceduo_run *few[] = {run_option(&site.scene, &sides.options[0], 600, 1),
                                run_option(&site.scene, &sides.options[1], 600, 1)};

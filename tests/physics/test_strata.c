@@ -304,7 +304,7 @@ TEST(groups_of_trees_that_differ)
 TEST(stumps_and_groups_over_the_years)
 {
     static double stay[] = {40};
-    const struct ceduo_curve curve = {.dbh_most = .3, .dbh_rate = .03, .height_max = 15, .height_rate = .05};
+    const struct ceduo_curve curve = {.dbh_max = .3, .dbh_rate = .03, .height_max = 15, .height_rate = .05};
     struct ceduo_stems shoots = {.per_ha = 4000, .dbh = .06, .height = 6, .volume = NAN, .age = 4};
     struct ceduo_stems trees[] = {
         {.per_ha = 20, .dbh = .4, .height = 15, .volume = NAN, .age = 60},

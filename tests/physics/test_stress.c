@@ -102,7 +102,7 @@ static void expect_counts(const struct line_scene *s)
     scene.controls = controls;
     scene.controls_count = n;
     struct ceduo_run_def def = ceduo_run_def_default(&scene);
-    def.rocks_most = run_rocks;
+    def.rocks_max = run_rocks;
     LOCAL(ceduo_run, run);
     assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
     assert_int_equal(ceduo_run_extend(run, run_rocks), CEDUO_OK);

@@ -55,7 +55,7 @@ static void init(void)
                                             .stand = stand};
     }
     wood.belts[1].stand.cutting.cohorts = 3;
-    wood.belts[2].stand.growth = (struct ceduo_growth){.sdi_most = 0};
+    wood.belts[2].stand.growth = (struct ceduo_growth){.sdi_max = 0};
     wood.option = (struct ceduo_option){.belts_count = BELTS, .belts = wood.belts};
     wood.controls[0] = (struct ceduo_control){.x = 60, .x_given = 60, .accepted = NAN, .measured_speed = NAN};
     wood.controls[1] = (struct ceduo_control){.x = 135, .x_given = 135, .accepted = 50e3, .measured_speed = NAN};
@@ -79,7 +79,7 @@ static struct ceduo_pool *make_pool(unsigned threads, const atomic_bool *cancel)
     struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
     def.threads = threads;
     def.cancel = cancel;
-    def.rocks_most = CEDUO_ROCKS_MAX;
+    def.rocks_max = CEDUO_ROCKS_MAX;
     struct ceduo_pool *pool;
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     return pool;
@@ -626,7 +626,7 @@ TEST_WITH(a_cancelled_simulation_can_continue, fresh, NULL)
         struct stop stop = {.cancel = after == 0, .after = after};
         struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
         def.threads = 2;
-        def.rocks_most = ROCKS;
+        def.rocks_max = ROCKS;
         def.cancel = &stop.cancel;
         def.progress = count_run;
         def.context = &stop;

@@ -58,7 +58,10 @@ static int open_site(void **state)
     stand = (struct ceduo_stand_result){0};
     option_result = (struct ceduo_option_result){
 
-        .stands = &stand, .controls = &index_, .others = &other, .wooded = {.rocks = 1000, .controls = 1, .arrivals = &wooded}};
+        .stands = &stand,
+        .controls = &index_,
+        .alternatives = &other,
+        .wooded = {.rocks = 1000, .controls = 1, .arrivals = &wooded}};
     result = (struct ceduo_result){.scene = &scene,
                                    .wooded = true,
                                    .bare = {.rocks = 1000, .controls = 1, .arrivals = &bare},

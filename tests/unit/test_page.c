@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 #include "view/figures.h"
 #include "view/page.h"
 

@@ -13,7 +13,7 @@ static struct ceduo_request make_request(uint64_t rocks)
 {
     paper_site_init(&site);
     struct ceduo_request q = ceduo_request_default(&site.scene);
-    q.rocks = q.run.rocks_most = rocks;
+    q.rocks = q.run.rocks_max = rocks;
     return q;
 }
 

@@ -6,8 +6,8 @@
 #include <math.h>
 
 #include "ceduo/ceduo.h"
+#include "core/forest/forest.h"
 #include "core/walk/ground.h"
-#include "core/wood/wood.h"
 #include "physics/paper_site.h"
 
 /* ---- refused scenes ---- */
@@ -298,17 +298,17 @@ TEST(tables_of_stools_have_a_limit)
     paper_site_init(&site);
     const struct ceduo_simulation *simulation = &site.scene.simulation;
     const struct ceduo_rock rock = {.mean_diameter = .68};
-    struct wood wood;
-    assert_true(ceduo_wood_init(&wood, simulation, &site.option, &rock));
-    EXPECT(wood.met_mask, >=, 63);
-    EXPECT(wood.met_mask, <, 1000);
-    ceduo_wood_release(&wood);
+    struct forest forest;
+    assert_true(ceduo_forest_init(&forest, simulation, &site.option, &rock));
+    EXPECT(forest.met_mask, >=, 63);
+    EXPECT(forest.met_mask, <, 1000);
+    ceduo_forest_release(&forest);
     site.belts[0].stand.stools_per_ha = 1e6;
     site.plots[0].shoots.per_ha = 1e10;
     site.belts[0].stand.spacing = 20;
-    assert_true(ceduo_wood_init(&wood, simulation, &site.option, &rock));
-    assert_int_equal(wood.met_mask, ((size_t)1 << 20) - 1); /* more than the million stems of a way */
-    ceduo_wood_release(&wood);
+    assert_true(ceduo_forest_init(&forest, simulation, &site.option, &rock));
+    assert_int_equal(forest.met_mask, ((size_t)1 << 20) - 1); /* more than the million stems of a way */
+    ceduo_forest_release(&forest);
 }
 
 /* ---- index ---- */

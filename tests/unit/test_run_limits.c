@@ -299,7 +299,7 @@ TEST(energies_of_the_stored_arrivals)
     double energies[8];
     paper_site_init(&site);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    def.rocks_most = 300;
+    def.rocks_max = 300;
     LOCAL(ceduo_run, run) = make_run(&def, 0);
     assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
     assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);

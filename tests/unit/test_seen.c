@@ -9,7 +9,7 @@
 
 #include "ceduo/calibrate.h"
 #include "ceduo/ceduo.h"
-#include "study/seen.h"
+#include "study/observed_stops.h"
 #include "unit/ground.h"
 
 #define FIRST 0

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/utf8.h"
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 #include "io/scene_file.h"
 #include "view/page_parts.h"
 
@@ -40,11 +40,11 @@ static void check_scene(const char *path)
     struct ceduo_request question = ceduo_request_default(&file.scene);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict;
-    question.rocks = question.run.rocks_most = ROCKS;
+    question.rocks = question.run.rocks_max = ROCKS;
     question.years = true;
     question.years_independent = true;
     question.year_rocks = 50;
-    question.years_most = 60;
+    question.years_max = 60;
     assert_int_equal(ceduo_simulate_request(&question, NULL, &answer), CEDUO_OK);
     assert_int_equal(ceduo_compare_options(answer.result, answer.years, NULL, &verdict), CEDUO_OK);
     const struct ceduo_report report = {.file = &file, .result = answer.result, .verdict = &verdict};

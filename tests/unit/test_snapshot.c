@@ -28,7 +28,7 @@ static struct ceduo_pool *pool_of(uint64_t rocks)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&s.scene);
     struct ceduo_pool *pool;
-    def.rocks_most = 5000;
+    def.rocks_max = 5000;
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, rocks), CEDUO_OK);

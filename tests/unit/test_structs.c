@@ -57,7 +57,7 @@ static void change_field(const struct field *f, char *item)
     int word = f->choices ? (int)draw(f->choices->n + 3) - 2 : 0;
     switch (f->type) {
     case FIELD_NUMBER:
-        memcpy(f->flags & FIELD_PLACE ? item + f->beside : at, &number, sizeof number);
+        memcpy(f->flags & FIELD_PLACE ? item + f->companion_offset : at, &number, sizeof number);
         break;
     case FIELD_SPREAD:
         memcpy(at, &spread, sizeof spread);
@@ -76,7 +76,7 @@ static void change_field(const struct field *f, char *item)
     case FIELD_NUMBERS:
     case FIELD_LIST:
         memcpy(&items, at, sizeof items);
-        memcpy(&n, item + f->beside, sizeof n);
+        memcpy(&n, item + f->companion_offset, sizeof n);
         if (n > 0 && f->type == FIELD_LIST)
             change(f->object, items + draw(n) * f->object->size);
         else if (n > 0)
@@ -113,7 +113,7 @@ TEST(any_struct_is_refused_or_computed)
         q.run.threads = 1;
         q.years = draw(4) == 0;
         q.year_rocks = 2;
-        q.years_most = 5;
+        q.years_max = 5;
         alarm(SECONDS); /* ends the test */
         enum ceduo_status status = ceduo_simulate_request(&q, NULL, &a);
         alarm(0);
@@ -203,7 +203,7 @@ static enum ceduo_status ask_any(void)
     struct ceduo_results a;
     q.run.scene = draw(64) ? &site.scene : NULL;
     q.rocks = any_count(8);
-    q.run.rocks_most = any_count(8);
+    q.run.rocks_max = any_count(8);
     q.run.threads = any_threads();
     q.run.kernel = (enum ceduo_kernel)any_count(3);
     q.run.arrivals_only = draw(2);
@@ -212,7 +212,7 @@ static enum ceduo_status ask_any(void)
     q.years = draw(3) == 0;
     q.rotations = draw(6) == 0;
     q.years_independent = draw(2);
-    q.years_most = draw(2) ? 3 : (unsigned)any_count(4);
+    q.years_max = draw(2) ? 3 : (unsigned)any_count(4);
     q.year_rocks = 1 + draw(2);
     q.block_rocks = draw(4) ? 0 : any_count(5);
     q.tolerance = draw(4) ? 0 : .5;
@@ -240,7 +240,7 @@ static enum ceduo_status ask_any_uncertainty(void)
     def.years_max = draw(4) ? 2 : any_count(3);
     def.window = any_window();
     def.brief = draw(2);
-    def.alone = draw(3) == 0;
+    def.one_option = draw(3) == 0;
     def.option = any_count(1);
     enum ceduo_status status = ceduo_uncertainty_compute(&def, &a);
     if (status == CEDUO_OK)
@@ -327,7 +327,7 @@ TEST(each_bad_argument_is_refused)
 {
     open_site();
     struct ceduo_request q = ceduo_request_default(&site.scene);
-    q.rocks = q.run.rocks_most = 10;
+    q.rocks = q.run.rocks_max = 10;
     struct ceduo_results a;
 #define REFUSED(member, value)                                                                                                 \
     do {                                                                                                                       \
@@ -339,7 +339,7 @@ TEST(each_bad_argument_is_refused)
     ceduo_results_release(&a);
     REFUSED(only, site.scene.options_count);
     REFUSED(rocks, CEDUO_ROCKS_MAX + 1);
-    REFUSED(run.rocks_most, UINT64_MAX);
+    REFUSED(run.rocks_max, UINT64_MAX);
     REFUSED(run.scene, NULL);
     REFUSED(run.threads, UINT32_MAX);
     REFUSED(run.kernel, (enum ceduo_kernel)9);
@@ -370,7 +370,7 @@ TEST(each_bad_argument_is_refused)
     EXPECT(ceduo_uncertainty_compute(&def, &uncertainty), ==, CEDUO_OK);
     EXPECT(uncertainty.points, ==, 4);
     ceduo_uncertainty_free(&uncertainty);
-    bad = def, bad.alone = true, bad.option = 9;
+    bad = def, bad.one_option = true, bad.option = 9;
     EXPECT(ceduo_uncertainty_compute(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     bad = def, bad.years_max = 1000;
     EXPECT(ceduo_uncertainty_compute(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);

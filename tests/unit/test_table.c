@@ -43,9 +43,9 @@ static void mark_rows(bool *seen, const struct object *object, size_t size)
             continue;
         mark(seen, f->offset, f->size);
         if (counted)
-            mark(seen, f->beside, sizeof(size_t));
+            mark(seen, f->companion_offset, sizeof(size_t));
         if (f->type == FIELD_NUMBER && f->flags & FIELD_PLACE)
-            mark(seen, f->beside, sizeof(double));
+            mark(seen, f->companion_offset, sizeof(double));
     }
 }
 
@@ -490,7 +490,7 @@ TEST(setting_values_leaks_no_memory)
     assert_true(ceduo_value_find(&file.scene, "rock.diameter_m", &diameter));
     struct ceduo_run_def def = ceduo_run_def_default(&file.scene);
     def.option = &file.scene.options[0];
-    def.rocks_most = 10;
+    def.rocks_max = 10;
     size_t before = 0, arena = file.arena.bytes;
     for (int i = 0; i < 100000; i++) {
         assert_true(ceduo_value_set(&per_ha, 50 + i % 100));

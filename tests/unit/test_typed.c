@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "view/typed.h"
+#include "view/value_text.h"
 
 #define DBH "forest[0].stand.shoots[0].dbh_m"
 

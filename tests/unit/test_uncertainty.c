@@ -5,13 +5,13 @@
 
 #include <stdlib.h>
 
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 #include "ceduo/uncertainty.h"
 #include "io/scene_file.h"
 #include "study/effort.h"
 #include "study/inputs.h"
 #include "study/points.h"
-#include "study/sure.h"
+#include "study/reliability.h"
 
 /* Uncertainty of a density with a large error: within 1 % of its mean; a uniform law truncated at 0 was 17 and 37 % above. */
 TEST(gamma_laws_keep_the_mean)
@@ -197,7 +197,7 @@ TEST(slots_of_a_point_cover_all_years)
     open_wood();
     file.scene.simulation.contact_model = CEDUO_STEMS;
     struct ceduo_stand *stand = &file.scene.options[0].belts[0].stand;
-    stand->growth.trees = (struct ceduo_curve){.dbh_most = TREE_MAX, .dbh_rate = .01, .height_max = 20, .height_rate = .01};
+    stand->growth.trees = (struct ceduo_curve){.dbh_max = TREE_MAX, .dbh_rate = .01, .height_max = 20, .height_rate = .01};
     const struct ceduo_uncertainty_def def = set_long_years(&input);
     const struct points points = {.def = &def, .u = u, .read = read_year, .context = years};
     EXPECT(ceduo_points_years(&def), ==, CEDUO_UNCERTAINTY_YEARS_MAX);
@@ -249,7 +249,7 @@ TEST(the_effort_of_a_page_is_bounded)
         file.scene.options[0].belts[0].stand.trees[0].per_ha = cases[i].per_ha;
         file.scene.rock.diameter = ceduo_number(cases[i].diameter);
         struct ceduo_request q = ceduo_request_default(&file.scene);
-        q.rocks = q.run.rocks_most = cases[i].own;
+        q.rocks = q.run.rocks_max = cases[i].own;
         EXPECT(ceduo_simulate_request(&q, NULL, &own), ==, CEDUO_OK);
         for (unsigned threads = 1; threads <= 2; threads++) {
             struct ceduo_uncertainty_def def = {.scene = &file.scene,

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 #include "ceduo/statistics.h"
 #include "io/scene_file.h"
 #include "study/inputs.h"
@@ -57,7 +57,7 @@ static void simulate_point(struct input_scene *copy, const double *u, size_t poi
     struct ceduo_results own;
     ceduo_inputs_set(copy, u);
     struct ceduo_request q = ceduo_request_default(&copy->scene);
-    q.rocks = q.run.rocks_most = ROCKS;
+    q.rocks = q.run.rocks_max = ROCKS;
     q.run.threads = 2;
     q.run.arrivals_only = true;
     q.years = true;
@@ -234,7 +234,7 @@ TEST(one_option_alone_over_a_rotation)
     open_scene();
     struct ceduo_uncertainty_def def = make_def(2, 16);
     ask(2, 16, &answer);
-    def.alone = true;
+    def.one_option = true;
     def.option = 1;
     def.points_max = 8;
     EXPECT(ceduo_uncertainty_compute(&def, &alone), ==, CEDUO_OK);

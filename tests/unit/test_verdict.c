@@ -134,15 +134,15 @@ TEST(an_edit_of_the_law_leaves_no_figures_of_the_other)
 {
     open_scene("profiles/scenes/paper-site.yaml");
     follow_to_the_end();
-    const struct ceduo_alternative_energy *other = &live.result->options[0].others[0];
+    const struct ceduo_alternative_energy *other = &live.result->options[0].alternatives[0];
     assert_true(other->known);
     EXPECT(other->model, ==, CEDUO_DORREN);
     for (size_t i = 0; i < file.scene.options[0].belts_count; i++)
         file.scene.options[0].belts[i].stand.energy = CEDUO_DORREN;
     ceduo_live_update(&live, &file, 0, 0, 0);
-    assert_false(live.result->options[0].others[0].known);
+    assert_false(live.result->options[0].alternatives[0].known);
     follow_to_the_end();
-    other = &live.result->options[0].others[0];
+    other = &live.result->options[0].alternatives[0];
     assert_true(other->known);
     EXPECT(other->model, ==, CEDUO_BRAUNER);
     close_scene();
@@ -174,7 +174,7 @@ struct made {
     struct ceduo_option options[OPTIONS];
     struct ceduo_arrivals bare, wooded[OPTIONS];
     struct ceduo_difference differences[OPTIONS];
-    struct ceduo_alternative_energy others[OPTIONS];
+    struct ceduo_alternative_energy alternatives[OPTIONS];
     struct ceduo_option_result found[OPTIONS];
     struct ceduo_stand_result stands[2]; /* of the belts of each */
     struct ceduo_result result;
@@ -200,12 +200,12 @@ static void make_alike(void)
         made.wooded[i] = (struct ceduo_arrivals){
             .released = ROCKS, .reached = ROCKS / 2, .reach.mean = .5, .exceed.mean = .5, .hazard = {.per_year = NAN}};
         made.differences[i] = ceduo_difference_zero(50e3);
-        made.others[i] =
+        made.alternatives[i] =
             (struct ceduo_alternative_energy){.known = true, .stems = true, .to_first = ceduo_difference_zero(50e3)};
         made.found[i] = (struct ceduo_option_result){.wooded = {.rocks = ROCKS, .controls = 1, .arrivals = &made.wooded[i]},
                                                      .stands = made.stands,
                                                      .differences = &made.differences[i],
-                                                     .others = &made.others[i]};
+                                                     .alternatives = &made.alternatives[i]};
         made.year[i] = (struct ceduo_year){.controls = &made.index, .wooded = made.found[i].wooded};
         for (size_t r = 0; r < ROCKS; r++)
             made.marks[i][r] = r % 2;
@@ -282,8 +282,8 @@ TEST_WITH(an_order_is_turned_by_more_than_an_error, open_made, close_made)
     } cases[] = {{4, .5, 0}, {.5, 4, 0}, {4, 1.5, 1}, {1.5, 4, 1}, {2.5, 2.5, 0}, {4, -4, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         made.differences[1].exceed = (struct ceduo_estimate){cases[i].today * .01, .01, NAN, NAN};
-        made.others[1].to_first.exceed = (struct ceduo_estimate){-cases[i].other * .01, .01, NAN, NAN};
-        made.differences[2].exceed = made.others[2].to_first.exceed = (struct ceduo_estimate){9, .01, NAN, NAN};
+        made.alternatives[1].to_first.exceed = (struct ceduo_estimate){-cases[i].other * .01, .01, NAN, NAN};
+        made.differences[2].exceed = made.alternatives[2].to_first.exceed = (struct ceduo_estimate){9, .01, NAN, NAN};
         LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = verdict_of_made(NULL);
         EXPECT(v.reversals_count, ==, cases[i].turned);
         if (v.reversals_count > 0)

@@ -157,7 +157,7 @@ TEST(an_answer_depends_where_the_laws_differ)
         }
         const struct ceduo_simulated bare = {.rocks = 1000, .controls = 1, .arrivals = &arrivals[0]};
         assert_int_equal(ceduo_result_assess(&scene.scene, &bare, wooded, differences, others, &result), CEDUO_OK);
-        EXPECT(result->options[1].others[0].judgement, ==, cases[i].judged);
+        EXPECT(result->options[1].alternatives[0].judgement, ==, cases[i].judged);
         ceduo_result_free(result);
     }
 }

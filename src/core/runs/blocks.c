@@ -71,7 +71,7 @@ static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant
     variant->run = ceduo_run_def_default(&r->scene);
     variant->run.option = def->option;
     variant->run.threads = def->threads;
-    variant->run.rocks_most = def->rocks;
+    variant->run.rocks_max = def->rocks;
     variant->run.cancel = def->cancel;
     variant->run.arrivals_only = true;
     return CEDUO_OK;

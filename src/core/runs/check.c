@@ -14,7 +14,7 @@ enum ceduo_status ceduo_check_window(struct ceduo_window w)
 /* True if a run of the scene may be made so. */
 static bool is_run_good(const struct ceduo_run_def *def)
 {
-    return def->rocks_most <= CEDUO_ROCKS_MAX && def->threads <= CEDUO_THREADS_MAX && def->kernel <= CEDUO_KERNEL_AVX512 &&
+    return def->rocks_max <= CEDUO_ROCKS_MAX && def->threads <= CEDUO_THREADS_MAX && def->kernel <= CEDUO_KERNEL_AVX512 &&
            ceduo_option_has_lists(def->option);
 }
 

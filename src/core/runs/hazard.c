@@ -32,15 +32,15 @@ struct ceduo_hazard ceduo_hazard_none(void)
 {
     static const char *const words[CEDUO_INTENSITIES] = {"weak", "medium", "strong"};
     struct ceduo_hazard h = {
-        .per_year = NAN, .effective = NAN, .reach = CEDUO_NO_ESTIMATE, .accepted = CEDUO_NO_ESTIMATE, .left = NAN};
+        .per_year = NAN, .effective = NAN, .reach = CEDUO_NO_ESTIMATE, .accepted = CEDUO_NO_ESTIMATE, .remaining_share = NAN};
     for (size_t i = 0; i < CEDUO_RETURNS; i++)
         h.returns[i] = (struct ceduo_return){ceduo_return_years[i], CEDUO_NO_ESTIMATE};
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
         h.intensity[i] = (struct ceduo_intensity){.word = words[i],
                                                   .from = ceduo_intensity_from[i],
                                                   .to = ceduo_intensity_from[i + 1],
-                                                  .within = CEDUO_NO_ESTIMATE,
-                                                  .left = NAN};
+                                                  .rate = CEDUO_NO_ESTIMATE,
+                                                  .remaining_share = NAN};
     return h;
 }
 
@@ -56,9 +56,9 @@ static double rate_ratio(struct ceduo_estimate rate, struct ceduo_estimate bare)
 
 void ceduo_hazard_compare(struct ceduo_hazard *h, const struct ceduo_hazard *bare)
 {
-    h->left = rate_ratio(ceduo_hazard_judged_rate(h), ceduo_hazard_judged_rate(bare));
+    h->remaining_share = rate_ratio(ceduo_hazard_judged_rate(h), ceduo_hazard_judged_rate(bare));
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
-        h->intensity[i].left = rate_ratio(h->intensity[i].within, bare->intensity[i].within);
+        h->intensity[i].remaining_share = rate_ratio(h->intensity[i].rate, bare->intensity[i].rate);
 }
 
 /* ---- the curve ---- */
@@ -92,9 +92,9 @@ static void set_curve(const struct curve *c, struct ceduo_hazard_curve *to)
 {
     for (size_t i = 0; i < CEDUO_HAZARD_ENERGIES; i++) {
         double energy = ceduo_hazard_energy(i);
-        to->at[i] = (struct ceduo_hazard_point){energy, make_exceedance(c, energy)};
+        to->points[i] = (struct ceduo_hazard_point){energy, make_exceedance(c, energy)};
         to->count = i + 1;
-        if (!(to->at[i].rate.mean > 0))
+        if (!(to->points[i].rate.mean > 0))
             break;
     }
 }
@@ -121,7 +121,7 @@ static void read_curve(const struct curve *c, double accepted, struct ceduo_haza
         double from = ceduo_intensity_from[i], to = ceduo_intensity_from[i + 1]; /* from <= energy < to */
         const struct weighted_sum *a = &c->sums[from > 0 ? count_above(c, nextafter(from, 0)) : c->n];
         const struct weighted_sum *b = &c->sums[count_above(c, nextafter(to, 0))];
-        h->intensity[i].within = make_rate(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw}, from);
+        h->intensity[i].rate = make_rate(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw}, from);
         for (size_t r = 0; r < CEDUO_RETURNS; r++)
             h->intensity[i].of_return[r] = ceduo_intensity_find(h->returns[r].energy.mean) == (int)i;
     }

@@ -2,7 +2,7 @@
 #include "ceduo/key.h"
 
 #include "base/hash.h"
-#include "core/wood/wood.h"
+#include "core/forest/forest.h"
 #include "scene/schema.h"
 
 /* Ground, rock, release and controls are hashed by the table of keys, so that a new row is in the key unless a flag excludes
@@ -17,13 +17,13 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
         bool nested = f->type == FIELD_GROUP || f->type == FIELD_LIST;
         if (f->flags & NOT_HASHED || (!nested && !(f->flags & FIELD_YEARS) == years))
             continue;
-        const char *member = item + (f->flags & FIELD_PLACE && f->type == FIELD_NUMBER ? f->beside : f->offset);
+        const char *member = item + (f->flags & FIELD_PLACE && f->type == FIELD_NUMBER ? f->companion_offset : f->offset);
         const struct ceduo_number *numbers = (const void *)member;
         uint64_t word = 0;
         size_t n;
         char *items;
         double *doubles, number;
-        memcpy(&n, item + f->beside, sizeof n);
+        memcpy(&n, item + f->companion_offset, sizeof n);
         switch (f->type) {
         case FIELD_GROUP:
             hash_fields(key, f->object, member, years);
@@ -98,14 +98,14 @@ uint64_t ceduo_fence_key(const struct ceduo_scene *scene)
 uint64_t ceduo_option_key(const struct ceduo_scene *scene, const struct ceduo_option *option)
 {
     uint64_t key = HASH_START;
-    return ceduo_wood_hash(&key, &scene->simulation, option) ? key : 0;
+    return ceduo_forest_hash(&key, &scene->simulation, option) ? key : 0;
 }
 
 uint64_t ceduo_years_key(const struct ceduo_option *option)
 {
     uint64_t key = HASH_START;
     const struct ceduo_simulation stems = {.contact_model = CEDUO_STEMS};
-    ceduo_wood_hash(&key, &stems, option);
+    ceduo_forest_hash(&key, &stems, option);
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         hash_double(&key, belt->from);

@@ -5,9 +5,9 @@
 
 #include <stdlib.h>
 
-#include "base/must.h"
+#include "base/oom.h"
+#include "ceduo/alternative_law.h"
 #include "ceduo/key.h"
-#include "ceduo/other.h"
 #include "check.h"
 
 struct pooled {
@@ -181,9 +181,9 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
     /* under the other law only arrivals are needed */
     struct ceduo_run_def def = pool->def;
     def.arrivals_only = true;
-    def.rocks_most = def.rocks_most > CEDUO_ALT_LAW_ROCKS ? CEDUO_ALT_LAW_ROCKS : def.rocks_most;
+    def.rocks_max = def.rocks_max > CEDUO_ALT_LAW_ROCKS ? CEDUO_ALT_LAW_ROCKS : def.rocks_max;
     struct ceduo_scene alt_scene = {0};
-    if (status == CEDUO_OK && !pool->filled && wooded && def.other_energy)
+    if (status == CEDUO_OK && !pool->filled && wooded && def.alternative_energy)
         status = ceduo_alternative_scene(&pool->scene, &alt_scene) ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; status == CEDUO_OK && i < alt_scene.options_count; i++) {
         uint64_t key = ceduo_option_key(&pool->scene, &alt_scene.options[i]);

@@ -117,8 +117,8 @@ static struct ceduo_result *allocate_result(const struct ceduo_scene *scene)
         o->stands = calloc(scene->options[i].belts_count + 1, sizeof *o->stands);
         o->controls = calloc(scene->controls_count + 1, sizeof *o->controls);
         o->differences = calloc(scene->controls_count + 1, sizeof *o->differences);
-        o->others = calloc(scene->controls_count + 1, sizeof *o->others);
-        good = o->stands && o->controls && o->differences && o->others;
+        o->alternatives = calloc(scene->controls_count + 1, sizeof *o->alternatives);
+        good = o->stands && o->controls && o->differences && o->alternatives;
     }
     r->last_control = ceduo_scene_last_control(scene);
     if (good)
@@ -140,7 +140,7 @@ static enum ceduo_status assess_options(struct ceduo_result *r, enum ceduo_statu
             status = copy_simulated(&r->bare, &o->wooded);
         ceduo_simulated_compare(&o->wooded, &r->bare);
         for (size_t c = 0; c < scene->controls_count; c++) {
-            struct ceduo_alternative_energy *alt = &o->others[c];
+            struct ceduo_alternative_energy *alt = &o->alternatives[c];
             if (!r->wooded)
                 o->differences[c] = ceduo_difference_zero(scene->controls[c].accepted);
             if (!r->wooded || !alt->known)
@@ -163,7 +163,7 @@ static enum ceduo_status assess_options(struct ceduo_result *r, enum ceduo_statu
 
 enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_simulated *bare,
                                       const struct ceduo_simulated *const *wooded, const struct ceduo_difference *differences,
-                                      const struct ceduo_alternative_energy *others, struct ceduo_result **result)
+                                      const struct ceduo_alternative_energy *alternatives, struct ceduo_result **result)
 {
     size_t controls = scene->controls_count;
     struct ceduo_result *r = allocate_result(scene);
@@ -174,8 +174,8 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
     for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
         if (differences)
             memcpy(r->options[i].differences, differences + i * controls, controls * sizeof *differences);
-        if (others)
-            memcpy(r->options[i].others, others + i * controls, controls * sizeof *others);
+        if (alternatives)
+            memcpy(r->options[i].alternatives, alternatives + i * controls, controls * sizeof *alternatives);
         if (wooded[i])
             status = copy_simulated(wooded[i], &r->options[i].wooded);
     }
@@ -213,7 +213,7 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
         const struct ceduo_run *first = ceduo_pool_find(pool, &alt.options[0]);
         const struct ceduo_run *run = ceduo_pool_find(pool, &alt.options[i]);
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
-            status = ceduo_alternative_read(&scene->options[i], run, first, c, &r->options[i].others[c]);
+            status = ceduo_alternative_read(&scene->options[i], run, first, c, &r->options[i].alternatives[c]);
     }
     ceduo_alternative_scene_release(&alt);
     return assess_options(r, status, result);
@@ -227,7 +227,7 @@ void ceduo_result_free(struct ceduo_result *result)
         free(result->options[i].stands);
         free(result->options[i].controls);
         free(result->options[i].differences);
-        free(result->options[i].others);
+        free(result->options[i].alternatives);
         ceduo_simulated_free(&result->options[i].wooded);
     }
     free(result->options);

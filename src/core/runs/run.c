@@ -4,21 +4,21 @@
 
 #include "base/clock.h"
 #include "check.h"
+#include "core/forest/kernel.h"
 #include "core/walk/walk.h"
-#include "core/wood/kernel.h"
 #include "run_state.h"
 
 #define CHUNK_SECONDS 0.5 /* target duration of a chunk, so that progress is reported regularly */
 
 struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene)
 {
-    return (struct ceduo_run_def){.scene = scene, .threads = 1, .rocks_most = scene->simulation.rocks};
+    return (struct ceduo_run_def){.scene = scene, .threads = 1, .rocks_max = scene->simulation.rocks};
 }
 
 enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
 {
-    if (rocks > run->def.rocks_most)
-        rocks = run->def.rocks_most;
+    if (rocks > run->def.rocks_max)
+        rocks = run->def.rocks_max;
     if (rocks <= run->rocks)
         return CEDUO_OK;
     if (!ceduo_run_samples_reserve(run, rocks))
@@ -63,7 +63,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_scene_rock_varies(def->scene);
     run->quantities = one_energy ? ENERGY + 1 : QUANTITIES;
     run->columns = run->controls * (size_t)run->quantities + 1;
-    uint64_t batches = run->def.rocks_most / CEDUO_BATCH_ROCKS + 1;
+    uint64_t batches = run->def.rocks_max / CEDUO_BATCH_ROCKS + 1;
     run->slots_count = batches < CHUNK_BATCHES ? (size_t)batches : CHUNK_BATCHES;
     run->chunk = run->def.threads < CHUNK_BATCHES ? run->def.threads : CHUNK_BATCHES;
     run->walk_lanes = ceduo_kernel(def->kernel)->walk;
@@ -79,7 +79,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
         ceduo_run_free(run);
         return CEDUO_NO_MEMORY;
     }
-    run->identical = run->prepared.wood.bare && ceduo_walk_is_identical(&run->prepared);
+    run->identical = run->prepared.forest.bare && ceduo_walk_is_identical(&run->prepared);
     *out = run;
     return status;
 }

@@ -84,7 +84,7 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
     if (!isnan(accepted))
         a->exceed = ceduo_weighted_share(&totals, &exceed, accepted);
     a->energy_per_released = (struct ceduo_estimate){energy.t / totals.w, ceduo_weighted_se(&totals, &energy), NAN, NAN};
-    if (!run->prepared.wood.bare && n > 0) { /* stems hit have sums, but no samples */
+    if (!run->prepared.forest.bare && n > 0) { /* stems hit have sums, but no samples */
         double mean = s->hits.t / reach.t;
         struct weighted_sum deviations = {.tt = s->hits.tt - mean * (2 * s->hits.tw - mean * reach.tt),
                                           .tw = s->hits.tw - mean * reach.tt};
@@ -156,7 +156,7 @@ enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, 
     double n = (double)run->rocks, arrived = (double)energy->n / n;
     double m2 = energy->m2 + energy->mean * energy->mean * (double)energy->n * (1 - arrived);
     a->energy_per_released = (struct ceduo_estimate){energy->mean * arrived, n < 2 ? NAN : sqrt(m2 / (n - 1) / n), NAN, NAN};
-    if (!run->prepared.wood.bare && s.contacts.n > 0)
+    if (!run->prepared.forest.bare && s.contacts.n > 0)
         a->contacts = (struct ceduo_estimate){s.contacts.mean, ceduo_moments_se(&s.contacts), NAN, NAN};
     struct weighted *scratch = malloc(((size_t)run->rocks + 1) * sizeof *scratch);
     double *values = (double *)scratch;

@@ -64,7 +64,7 @@ bool ceduo_run_samples_reserve(struct ceduo_run *run, uint64_t rocks)
 {
     if (rocks <= run->capacity)
         return true;
-    uint64_t capacity = 2 * run->capacity < run->def.rocks_most ? 2 * run->capacity : run->def.rocks_most;
+    uint64_t capacity = 2 * run->capacity < run->def.rocks_max ? 2 * run->capacity : run->def.rocks_max;
     capacity = capacity < rocks ? rocks : capacity;
     double *weights = run->weighted ? realloc(run->weights, (size_t)capacity * sizeof *weights) : NULL;
     if (run->weighted && !weights)

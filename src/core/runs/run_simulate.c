@@ -207,10 +207,10 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     for (size_t i = 0; i < run->lanes; i++)
         w->walkers[i] = (struct walker){
             .cross = on_cross, .context = w, .arrivals_only = run->def.arrivals_only, .cancel = run->def.cancel};
-    if (!run->prepared.wood.bare && !(w->stems = calloc(run->lanes, sizeof *w->stems)))
+    if (!run->prepared.forest.bare && !(w->stems = calloc(run->lanes, sizeof *w->stems)))
         return false;
     for (size_t i = 0; w->stems && i < run->lanes; i++) {
-        if (!ceduo_stems_init(&w->stems[i], &run->prepared.wood, run->def.kernel))
+        if (!ceduo_stems_init(&w->stems[i], &run->prepared.forest, run->def.kernel))
             return false;
         w->walkers[i].stems = &w->stems[i];
     }

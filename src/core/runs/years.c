@@ -277,7 +277,7 @@ static int simulate_independent(void *context, size_t i, size_t worker)
     def.scene = &scene;
     def.option = &r->years->years[i].option;
     def.threads = 1;
-    def.rocks_most = r->rocks;
+    def.rocks_max = r->rocks;
     def.progress = r->def.progress ? report_year : NULL;
     def.context = r;
     enum ceduo_status status = ceduo_run_create(&def, &r->runs[i]);

@@ -17,7 +17,7 @@
 
 static bool is_known(const struct ceduo_curve *c)
 {
-    return c->dbh_most > 0 && c->dbh_rate > 0 && c->height_max > 0 && c->height_rate > 0;
+    return c->dbh_max > 0 && c->dbh_rate > 0 && c->height_max > 0 && c->height_rate > 0;
 }
 
 /* Return the share of its limit that a curve has at an age. */
@@ -28,7 +28,7 @@ static double curve_share(double rate, double age)
 
 double ceduo_curve_height(const struct ceduo_curve *curve, double dbh)
 {
-    double share = dbh / curve->dbh_most;
+    double share = dbh / curve->dbh_max;
     bool reaches = is_known(curve) && share < 1;
     return reaches ? curve->height_max * curve_share(curve->height_rate, -ceduo_log1p(-share) / curve->dbh_rate) : NAN;
 }
@@ -40,7 +40,7 @@ struct ceduo_curve_comparison ceduo_stems_compare_to_curve(const struct ceduo_st
     const struct ceduo_curve *curve = shoots ? &stand->growth.shoots : &stand->growth.trees;
     double since = first_cut < 0 ? fmod(-first_cut, stand->cutting.rotation) : 0; /* NaN without a rotation */
     double age = stems->age > 0 ? stems->age : shoots && stand->shoots_count == 1 ? since : 0;
-    double dbh = curve->dbh_most * curve_share(curve->dbh_rate, age);
+    double dbh = curve->dbh_max * curve_share(curve->dbh_rate, age);
     return (struct ceduo_curve_comparison){
         .age = age,
         .basal_area = stems->per_ha * (M_PI / 4) * (stems->dbh * stems->dbh + stems->dbh_sd * stems->dbh_sd),
@@ -54,7 +54,7 @@ static double find_age(const struct ceduo_stems *stems, const struct ceduo_curve
         return stems->age;
     if (!is_known(curve))
         return NAN;
-    double share = stems->dbh / curve->dbh_most;
+    double share = stems->dbh / curve->dbh_max;
     return share < 1 ? -ceduo_log1p(-share) / curve->dbh_rate : INFINITY;
 }
 
@@ -79,9 +79,9 @@ double ceduo_stems_sdi(const struct ceduo_stems *stems, size_t n)
 
 double ceduo_growing_space_used(const struct ceduo_growth *growth, const struct ceduo_stand *grown)
 {
-    if (!(growth->sdi_most > 0))
+    if (!(growth->sdi_max > 0))
         return 0;
-    double full_sdi = growth->trees_sdi_most > 0 ? growth->trees_sdi_most : growth->sdi_most * CEDUO_TREES_SPACE;
+    double full_sdi = growth->trees_sdi_max > 0 ? growth->trees_sdi_max : growth->sdi_max * CEDUO_TREES_SPACE;
     return ceduo_stems_sdi(grown->trees, grown->trees_count) / full_sdi;
 }
 
@@ -101,9 +101,9 @@ static void raise_shoots(struct ceduo_stand *stand, double min)
 /* Thin the shoots to the growing space that the trees leave. Stools without shoots die. */
 static void share_space(struct ceduo_stand *stand, const struct ceduo_growth *growth)
 {
-    double max = growth->sdi_most * fmax(0, 1 - ceduo_growing_space_used(growth, stand));
+    double max = growth->sdi_max * fmax(0, 1 - ceduo_growing_space_used(growth, stand));
     double sdi = ceduo_stems_sdi(stand->shoots, stand->shoots_count);
-    if (growth->sdi_most > 0 && sdi > max) /* the index is proportional to their number */
+    if (growth->sdi_max > 0 && sdi > max) /* the index is proportional to their number */
         multiply_shoots(stand, max / sdi);
     double shoots = ceduo_stand_shoots(stand);
     stand->stools_per_ha = fmin(stand->stools_per_ha, shoots);
@@ -188,7 +188,7 @@ static enum ceduo_status make_grown_stand(const struct ceduo_stand *stand, size_
     if (shoots + trees > 0 && !(out->stems = calloc(shoots + trees, sizeof *out->stems)))
         return CEDUO_NO_MEMORY;
     out->stand = *stand;
-    out->stand.growth = (struct ceduo_growth){.sdi_most = 0};
+    out->stand.growth = (struct ceduo_growth){.sdi_max = 0};
     out->stand.cutting = (struct ceduo_cutting){.rotation = 0};
     out->stand.shoots_count = shoots;
     out->stand.trees_count = trees;
@@ -213,7 +213,7 @@ static void remove_old_stumps(const struct ceduo_stand *stand, double years, str
 static struct ceduo_stems stems_of_age(const struct ceduo_curve *curve, double per_ha, double age)
 {
     return (struct ceduo_stems){.per_ha = per_ha,
-                                .dbh = curve->dbh_most * curve_share(curve->dbh_rate, age),
+                                .dbh = curve->dbh_max * curve_share(curve->dbh_rate, age),
                                 .height = curve->height_max * curve_share(curve->height_rate, age),
                                 .volume = NAN,
                                 .age = age};

@@ -45,7 +45,7 @@ static enum ceduo_status simulate_rocks(struct ceduo_tracer *tracer, const struc
                                         const struct ceduo_envelopes_def *def, struct ceduo_crossing *crossings,
                                         struct passing_values *places)
 {
-    const struct ceduo_trajectory_callbacks watch = {.enough = is_cancelled, .context = (void *)def->cancel};
+    const struct ceduo_trajectory_callbacks callbacks = {.is_cancelled = is_cancelled, .context = (void *)def->cancel};
     enum ceduo_status status = CEDUO_OK;
     uint64_t simulated = 0;
     for (uint64_t rock = 0; simulated < def->rocks && status == CEDUO_OK; rock++) {
@@ -55,7 +55,7 @@ static enum ceduo_status simulate_rocks(struct ceduo_tracer *tracer, const struc
         if (sizes->n > 0 && !ceduo_rock_is_typical(sizes, def->scene->simulation.seed, rock))
             continue;
         simulated++;
-        status = ceduo_tracer_run(tracer, rock, &watch, &trajectory, crossings);
+        status = ceduo_tracer_run(tracer, rock, &callbacks, &trajectory, crossings);
         for (size_t i = 0; i < def->places && status == CEDUO_OK; i++)
             add_rock(&places[i], &trajectory.rock, &crossings[i]);
     }

@@ -37,7 +37,7 @@ FORCE_INLINE real height_at_time(real z, real vz, double half_g, real t)
 FORCE_INLINE real later_root(real c, real b, double g)
 {
     real zero = splat(0), d = b * b + 2 * g * c, root = blend(less(zero, d), vsqrt(d), zero);
-    mask up = at_least(b, zero);
+    mask up = greater_equal(b, zero);
     real t = blend(up, b + root, 2 * c) / blend(up, splat(g), root - b);
     return blend(up | less(zero, c), t, zero);
 }
@@ -45,7 +45,7 @@ FORCE_INLINE real later_root(real c, real b, double g)
 /* Return the height of a chord at x. Requires x on the chord. */
 FORCE_INLINE real chord_height(const struct chord *s, real x)
 {
-    return blend(at_least(x, s->x1), s->z1, s->z0 + s->m * (x - s->x0));
+    return blend(greater_equal(x, s->x1), s->z1, s->z0 + s->m * (x - s->x0));
 }
 
 /* Move a nearby point onto the chord: keep x, or z if the chord is steeper than 45 degrees (`steep`), and compute the other

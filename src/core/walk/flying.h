@@ -26,7 +26,8 @@ static inline void set_next_stems(struct walker *w)
 /* True if the caller has cancelled the trajectory. */
 static bool is_cancelled(const struct walker *w)
 {
-    return ceduo_cancelled(w->cancel) || (w->watch && w->watch->enough && w->watch->enough(w->watch->context));
+    return ceduo_cancelled(w->cancel) ||
+           (w->callbacks && w->callbacks->is_cancelled && w->callbacks->is_cancelled(w->callbacks->context));
 }
 
 /* Return the contact count at which limits are checked next, a few milliseconds of work ahead. */
@@ -66,7 +67,7 @@ NOINLINE void report_flight(const struct walker *w, struct flight flight, double
 {
     const struct ceduo_trajectory_segment p = {false, flight.x,  flight.z, flight.vx, flight.vz, x1,
                                                z1,    flight.vx, vz1,      w->spin,   seconds,   w->contacts};
-    w->watch->piece(w->watch->context, &p);
+    w->callbacks->segment(w->callbacks->context, &p);
 }
 
 FORCE_INLINE void fly(struct walker *w, struct flight *flight, const struct landing *l)
@@ -74,7 +75,7 @@ FORCE_INLINE void fly(struct walker *w, struct flight *flight, const struct land
     double vz = flight->vz - w->g->gravity * l->t;
     if (w->next_x <= l->x && flight->vx > 0) /* untaken: rounding */
         ceduo_walk_pass_marks(w, *flight, l->x, l->t);
-    if (w->watch && w->watch->piece)
+    if (w->callbacks && w->callbacks->segment)
         report_flight(w, *flight, l->x, l->z, vz, l->t);
     flight->x = l->x;
     flight->z = l->z;
@@ -91,7 +92,7 @@ NOINLINE void report_stem(const struct walker *w, const struct stem *stem, doubl
     const struct ceduo_stem_encounter p = {
         x,         stem->y,       stem->dbh, stem->height, stem->shoot, stem->stool, clearance < stem->height,
         clearance, energy_before, known};
-    w->watch->stem(w->watch->context, &p);
+    w->callbacks->stem(w->callbacks->context, &p);
 }
 
 /* Consume the next stem on a side. Sets aborted if the trajectory must be abandoned. */
@@ -108,7 +109,7 @@ static inline void advance_stem(struct walker *w, int side)
 }
 
 /* Consume the next stem along +x (side 0) or -x. False if there is none, or if the trajectory is aborted. */
-static bool take_stem(struct walker *w, int side, struct stem *stem)
+static bool consume_stem(struct walker *w, int side, struct stem *stem)
 {
     bool known = w->stems->side[side].next_known;
     if (known)
@@ -129,7 +130,7 @@ static double hit_stem(struct walker *w, struct stem *stem, double x, double cle
     struct hit hit = {.energy = energy, .cost = stem->energy};
     count_hit(w, stem);
     double share = speed_kept(hit);
-    if (w->watch && w->watch->stem)
+    if (w->callbacks && w->callbacks->stem)
         report_stem(w, stem, x, clearance, energy, energy_taken(hit));
     return share;
 }
@@ -165,7 +166,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
             continue;
         }
         struct stem stem;
-        if (!take_stem(w, side, &stem)) {
+        if (!consume_stem(w, side, &stem)) {
             if (w->aborted) {
                 fly(w, flight, &at_stem); /* report the marks before */
                 return true;
@@ -174,7 +175,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
         }
         clearance = clearance > 0 ? clearance : 0;
         if (!(clearance < stem.height)) {
-            if (w->watch && w->watch->stem)
+            if (w->callbacks && w->callbacks->stem)
                 report_stem(w, &stem, x, clearance, 0, 0);
             continue;
         }

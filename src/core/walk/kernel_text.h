@@ -4,7 +4,7 @@
  * This file and lanes_*.h use the same operations in the same order as walk.c for one rock, unless they share its code. Each
  * stage processes one register after the other. A stage is so short that the processor overlaps the registers, and so small
  * that it needs no spills. */
-#include "core/wood/kernel.h"
+#include "core/forest/kernel.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
@@ -20,7 +20,7 @@
 #pragma GCC target("avx2")
 #endif
 
-#include "core/wood/stems_fill.h"
+#include "core/forest/stems_fill.h"
 #include "lanes_stems.h"
 
 /* ---- all contacts ---- */
@@ -113,11 +113,11 @@ FORCE_INLINE void walk_lanes(struct kernel_params params, struct lanes *k)
 }
 
 /* Instantiate the walk for a law and its compile-time parameters. */
-#define WALK(law, small, wood) walk_lanes((struct kernel_params){&(law), small, wood}, k)
+#define WALK(law, small, forest) walk_lanes((struct kernel_params){&(law), small, forest}, k)
 #define X(NAME, name)                                                                                                          \
-    static void walk_##name(struct lanes *k, bool small, bool wood)                                                            \
+    static void walk_##name(struct lanes *k, bool small, bool forest)                                                          \
     {                                                                                                                          \
-        if (wood)                                                                                                              \
+        if (forest)                                                                                                            \
             small ? WALK(law_##name, true, true) : WALK(law_##name, false, true);                                              \
         else                                                                                                                   \
             small ? WALK(law_##name, true, false) : WALK(law_##name, false, false);                                            \
@@ -144,7 +144,7 @@ static void walk_job(const struct lanes_job *job)
     k.against = k.g->facets == CEDUO_AGAINST;
     k.scale_rn = w->scale_rn;
     k.friction_bound = w->friction_bound;
-    k.tallest = w->stems ? w->stems->wood->tallest + 1e-6 : 0; /* margin above rounding of heights */
+    k.tallest = w->stems ? w->stems->forest->tallest + 1e-6 : 0; /* margin above rounding of heights */
     k.steep = job->ground->steep;
     static void (*const walks[])(struct lanes *, bool, bool) = {
 #define X(NAME, name) walk_##name,

@@ -8,7 +8,7 @@
 /* The walk of walk.h for several rocks at once, one per lane of wide registers, with the same bits for every rock. Rare events
  * (marks, rolling over vertices and past stems, far landings on long slopes) are done lane by lane by the scalar walk. */
 
-/* Two numbers per vertex or segment i, at [i + 1 << shift]; see look_up(). */
+/* Two numbers per vertex or segment i, at [i + 1 << shift]; see lookup(). */
 #define TABLE_SMALL 16
 struct lanes_table {
     _Alignas(64) double first[TABLE_SMALL], second[TABLE_SMALL]; /* copy of a small table */

@@ -53,8 +53,8 @@ FORCE_INLINE unsigned find_scalar_lanes(struct kernel_params params, const struc
     unsigned mark = 0, stem = 0, pausing = 0;
     EACH_REGISTER(i) {
         real x = load(&k->to_x[i]);
-        mark |= lane_bits(at_least(x, load(&k->next_x[i])) & less(splat(0), load(&k->vx[i]))) << i;
-        stem |= lane_bits(at_least(x, load(&k->stem_ahead[i])) | at_least(load(&k->stem_behind[i]), x)) << i;
+        mark |= lane_bits(greater_equal(x, load(&k->next_x[i])) & less(splat(0), load(&k->vx[i]))) << i;
+        stem |= lane_bits(greater_equal(x, load(&k->stem_ahead[i])) | greater_equal(load(&k->stem_behind[i]), x)) << i;
         pausing |= (REGISTER & ~lane_bits(greater_ints(load_ints(&k->pause[i]), load_ints(&k->contacts[i])))) << i;
     }
     unsigned lands = k->live & ~in_the_air(params, k), flies = lands & ~k->at_contact;
@@ -107,10 +107,10 @@ FORCE_INLINE struct ground_point load_ground_points(struct kernel_params params,
         point.rn = load(&k->rn[i]);
         point.rt = load(&k->rt[i]);
     } else {
-        look_up(&k->ground->restitutions, segment, params.small, &point.rn, &point.rt);
+        lookup(&k->ground->restitutions, segment, params.small, &point.rn, &point.rt);
     }
     if (params.law->sections || k->friction_bound)
-        look_up(&k->ground->frictions, segment, params.small, &point.mu, &point.friction);
+        lookup(&k->ground->frictions, segment, params.small, &point.mu, &point.friction);
     if (params.law->sections) {
         point.sine = load(&k->section_turn.sine[i]);
         point.cosine = load(&k->section_turn.cosine[i]);
@@ -127,7 +127,7 @@ FORCE_INLINE void strike_lanes(struct kernel_params params, struct lanes *k, siz
 {
     real c, s, sine, cosine, vx = load(&k->vx[i]), vz = load(&k->vz[i]) - k->g->gravity * load(&k->t[i]);
     ints segment = load_ints(&k->to[i]);
-    look_up(&k->ground->tangents, segment, params.small, &c, &s);
+    lookup(&k->ground->tangents, segment, params.small, &c, &s);
     struct velocity v = velocity_on(c, s, vx, vz);
     if (k->rolling) {
         mask rolls = lane_mask(k->rolling >> i);

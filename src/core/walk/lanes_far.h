@@ -25,31 +25,31 @@ FORCE_INLINE real heights_above(const struct lanes *k, const struct far_search *
 /* Return which chunks from `b` on the flight may touch. */
 FORCE_INLINE unsigned chunks_touched(const struct lanes *k, const struct far_search *f, const struct ground_chunk *b)
 {
-    unsigned under = 0;
+    unsigned touched = 0;
     for (unsigned offset = 0; offset < GROUND_GROUP; offset += REAL_LANES, b += REAL_LANES) {
         real x, z, m, rise;
         load_fours((const double(*)[2]) & b->x, &x, &z, &m, &rise);
         real height = heights_above(k, f, x, z);
         double t = (b[REAL_LANES].x - f->x) * f->inv;
         real next_height = shift_in(height, (f->z + (f->vz - k->g->half_g * t) * t) - b[REAL_LANES].z);
-        under |= (REGISTER & ~lane_bits(at_least(height, rise) & at_least(next_height, rise))) << offset;
+        touched |= (REGISTER & ~lane_bits(greater_equal(height, rise) & greater_equal(next_height, rise))) << offset;
     }
-    return under;
+    return touched;
 }
 
 /* Test the vertices up to the end of their chunk. True if the flight lands before one. */
 FORCE_INLINE bool search_vertices(const struct lanes *k, struct far_search *f)
 {
     const double(*to)[2] = k->ground->vertices.pairs + f->vertex + 2;
-    unsigned count = (GROUP_LAST + 1) - (f->vertex & GROUP_LAST), under = 0; /* bit 0 is the vertex at `to` */
+    unsigned count = (GROUP_LAST + 1) - (f->vertex & GROUP_LAST), touched = 0; /* bit 0 is the vertex at `to` */
     for (unsigned offset = 0; offset < GROUND_GROUP; offset += REAL_LANES) {
         real x, z;
         load_pairs(to + offset, &x, &z);
-        under |= (REGISTER & ~lane_bits(at_least(heights_above(k, f, x, z), splat(0)))) << offset;
+        touched |= (REGISTER & ~lane_bits(greater_equal(heights_above(k, f, x, z), splat(0)))) << offset;
     }
-    under &= (1u << count) - 1;
-    f->vertex += under ? (unsigned)__builtin_ctz(under) : count;
-    return under;
+    touched &= (1u << count) - 1;
+    f->vertex += touched ? (unsigned)__builtin_ctz(touched) : count;
+    return touched;
 }
 
 /* Test the chunks up to the end of the enclosing larger chunk. Return the level to continue at. */
@@ -58,10 +58,10 @@ FORCE_INLINE int search_chunks(const struct lanes *k, struct far_search *f, int 
     int shift = GROUND_BITS * level;
     uint64_t i = f->vertex >> shift, available = (k->g->n >> shift) - i, count = (GROUP_LAST + 1) - (i & GROUP_LAST);
     count = count < available ? count : available;
-    unsigned under = chunks_touched(k, f, k->g->levels[level] + i) & ((1u << count) - 1);
-    uint64_t clear = under ? (unsigned)__builtin_ctz(under) : count;
-    bool larger = !under && count > 0 && ((i + count) & GROUP_LAST) == 0 && level < k->g->top;
-    bool down = under || count == available;
+    unsigned touched = chunks_touched(k, f, k->g->levels[level] + i) & ((1u << count) - 1);
+    uint64_t clear = touched ? (unsigned)__builtin_ctz(touched) : count;
+    bool larger = !touched && count > 0 && ((i + count) & GROUP_LAST) == 0 && level < k->g->top;
+    bool down = touched || count == available;
     f->vertex = (i + clear) << shift;
     return level + (larger ? 1 : down ? -1 : 0);
 }

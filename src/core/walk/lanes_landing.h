@@ -18,10 +18,10 @@ FORCE_INLINE void advance_search(struct kernel_params params, const struct lanes
 {
     ints next = s->vertex + s->step;
     real x, z;
-    look_up(&k->ground->vertices, params.small && LOOK_UP_WRAPS ? next : blend_ints(s->going, next, s->vertex), params.small,
-            &x, &z);
+    lookup(&k->ground->vertices, params.small && LOOKUP_WRAPS ? next : blend_ints(s->going, next, s->vertex), params.small, &x,
+           &z);
     real t = (x - s->x) * s->inv;
-    s->going &= at_least(height_at_time(s->z, s->vz, k->g->half_g, t) - z, splat(0));
+    s->going &= greater_equal(height_at_time(s->z, s->vz, k->g->half_g, t) - z, splat(0));
     s->vertex = blend_ints(s->going, next, s->vertex);
 }
 
@@ -46,11 +46,11 @@ FORCE_INLINE mask begin_search(struct kernel_params params, struct lanes *k, siz
     real zero = splat(0), x = load(&k->x[i]), vx = load(&k->vx[i]), vz = load(&k->vz[i]), inv = 1 / vx;
     mask forward = less(zero, vx);
     real t = (blend(forward, load(&k->chords.x1[i]), load(&k->chords.x0[i])) - x) * inv;
-    mask clear = at_least(vz - load(&k->chords.m[i]) * vx, k->g->half_g * t);
+    mask clear = greater_equal(vz - load(&k->chords.m[i]) * vx, k->g->half_g * t);
     if (params.stems && k->after_hit) {
         mask aloft = lane_mask(k->after_hit >> i);
         real end = blend(forward, load(&k->chords.z1[i]), load(&k->chords.z0[i]));
-        mask above = at_least(height_at_time(load(&k->z[i]), vz, k->g->half_g, t) - end, zero);
+        mask above = greater_equal(height_at_time(load(&k->z[i]), vz, k->g->half_g, t) - end, zero);
         clear = (aloft & above) | and_not(clear, aloft);
     }
     unsigned vertical = (k->live >> i) & REGISTER & ~lane_bits(forward | less(vx, zero));
@@ -124,7 +124,7 @@ FORCE_INLINE unsigned land_lanes(struct kernel_params params, struct lanes *k, s
     real inv = load(&k->inv[i]), theta;
     mask forward = less(zero, vx);
     ints from = load_ints(&k->segment[i]), vertex = load_ints(&k->vertex[i]), to = blend_ints(forward, vertex, vertex - one);
-    struct chord chord = look_up_chord(params, k, to, &theta);
+    struct chord chord = lookup_chord(params, k, to, &theta);
     mask same_segment = equal_ints(to, from);
     if (params.stems)
         same_segment = and_not(same_segment, lane_mask(k->after_hit >> i));
@@ -178,14 +178,14 @@ FORCE_INLINE unsigned roll_lanes(struct kernel_params params, struct lanes *k, s
     real zero = splat(0), radius = load(&k->radius[i]), off = load(&k->off[i]), u = load(&k->along[i]), c, s, mu, friction;
     real x = load(&k->x[i]), z = load(&k->z[i]), to_x = load(&k->to_x[i]), to_z = load(&k->to_z[i]);
     ints segment = load_ints(&k->segment[i]);
-    look_up(&k->ground->tangents, segment, params.small, &c, &s);
+    lookup(&k->ground->tangents, segment, params.small, &c, &s);
     mask slow = lane_mask(may_roll >> i) & less(off * off, radius * (2 * k->g->gravity * c));
     mask same_segment = equal_ints(load_ints(&k->to[i]), segment), steep = is_steep(chord.m), nearer, farther, ends, stays;
     real reach = vabs(radius * blend(steep, s, c));
     classify_distance(vabs(blend(steep, to_z - z, to_x - x)), reach, &nearer, &farther);
     mask rolls = slow & same_segment & nearer;
     *scalar |= lane_bits(and_not(slow, same_segment & farther)) << i;
-    look_up(&k->ground->frictions, segment, params.small, &mu, &friction);
+    lookup(&k->ground->frictions, segment, params.small, &mu, &friction);
     real spin = load(&k->spin[i]);
     if (k->rolled) {
         mask rolled = lane_mask(k->rolled >> i);
@@ -203,8 +203,8 @@ FORCE_INLINE unsigned roll_lanes(struct kernel_params params, struct lanes *k, s
         rate = rate / (1 + load(&k->k[i]));
     real u2 = u * u + rate * radius, x_end = x + dir * c * radius, z_end = z + dir * s * radius;
     snap_to_chord(&chord, steep, any(steep & rolls), false, &x_end, &z_end);
-    mask meets = at_least(x_end, load(&k->next_x[i])) | at_least(x_end, load(&k->stem_ahead[i]));
-    meets = (forward & meets) | and_not(at_least(load(&k->stem_behind[i]), x_end), forward);
+    mask meets = greater_equal(x_end, load(&k->next_x[i])) | greater_equal(x_end, load(&k->stem_ahead[i]));
+    meets = (forward & meets) | and_not(greater_equal(load(&k->stem_behind[i]), x_end), forward);
     rolls &= and_not(stays & less(zero, u2), meets | equal(u, zero));
     u = dir * vsqrt(u2);
     store(&k->t[i], blend(rolls, zero, load(&k->t[i])));

@@ -13,20 +13,20 @@
 #define EACH_REGISTER(i) for (size_t i = 0; i < LANES; i += REAL_LANES)
 #define ALL_LANES        ((unsigned)(((uint64_t)1 << LANES) - 1))
 
-#ifdef LOOK_UP_16
-#define LOOK_UP_WRAPS true /* look_up() in a small table uses i modulo 16 */
+#ifdef LOOKUP_16
+#define LOOKUP_WRAPS true /* lookup() in a small table uses i modulo 16 */
 #else
-#define LOOK_UP_WRAPS false
+#define LOOKUP_WRAPS false
 #endif
 
 /* Look up the two numbers at i of a table, for each lane. `small`: the table has at most 16 entries. */
-FORCE_INLINE void look_up(const struct lanes_table *table, ints i, bool small, real *first, real *second)
+FORCE_INLINE void lookup(const struct lanes_table *table, ints i, bool small, real *first, real *second)
 {
-#ifdef LOOK_UP_16
+#ifdef LOOKUP_16
     /* untaken 2: machine */
     if (small) { /* in registers */
-        *first = look_up_16(table->first, i);
-        *second = look_up_16(table->second, i);
+        *first = lookup_16(table->first, i);
+        *second = lookup_16(table->second, i);
         return;
     }
 #endif
@@ -138,12 +138,12 @@ struct lanes {
 _Static_assert(offsetof(struct lanes, contacts) % 64 == 0, "what is for lanes is loaded from whole lines of the cache");
 
 /* Look up segments, and their largest facet angles. */
-FORCE_INLINE struct chord look_up_chord(struct kernel_params params, const struct lanes *k, ints segment, real *theta)
+FORCE_INLINE struct chord lookup_chord(struct kernel_params params, const struct lanes *k, ints segment, real *theta)
 {
     struct chord chord;
-    look_up(&k->ground->vertices, segment, params.small, &chord.x0, &chord.z0);
-    look_up(&k->ground->vertices, segment + 1, params.small, &chord.x1, &chord.z1);
-    look_up(&k->ground->slopes, segment, params.small, &chord.m, theta);
+    lookup(&k->ground->vertices, segment, params.small, &chord.x0, &chord.z0);
+    lookup(&k->ground->vertices, segment + 1, params.small, &chord.x1, &chord.z1);
+    lookup(&k->ground->slopes, segment, params.small, &chord.m, theta);
     return chord;
 }
 
@@ -198,7 +198,7 @@ static void load_stem(struct lanes *k, size_t i)
     k->stem.hit[i] = w->stems_hit;
     k->stem.stools_met[i] = w->stools_met;
     k->stem.hit_stools[i] = w->stems->hit_stools;
-    k->stem.overlap_to[i] = w->stems->start + 2 * w->stems->wood->reach;
+    k->stem.overlap_to[i] = w->stems->start + 2 * w->stems->forest->reach;
     k->stem.next[i] = NULL;
     k->stem.second_x[i] = k->stem.certain_to[i] = INFINITY;
     if (w->stem_ahead == INFINITY)

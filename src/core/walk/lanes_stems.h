@@ -42,10 +42,10 @@ NOINLINE void search_segments(const struct lanes *k, struct passing *p, size_t i
 FORCE_INLINE void go_to_segment(struct kernel_params params, const struct lanes *k, struct passing *p, size_t i, real to,
                                 struct chord *chord)
 {
-    unsigned beyond = (p->active & p->landing_known) >> i & REGISTER & ~lane_bits(at_least(load(&p->end[i]), to));
+    unsigned beyond = (p->active & p->landing_known) >> i & REGISTER & ~lane_bits(greater_equal(load(&p->end[i]), to));
     ints segment = load_ints(&p->segment[i]), last = load_ints(&p->last[i]);
     real theta;
-    mask advancing = lane_mask(beyond) & at_least(to, chord->x1) & greater_ints(last, segment);
+    mask advancing = lane_mask(beyond) & greater_equal(to, chord->x1) & greater_ints(last, segment);
     while (any(advancing)) {
         if (k->has_chunks) {
             search_segments(k, p, i, advancing);
@@ -54,14 +54,14 @@ FORCE_INLINE void go_to_segment(struct kernel_params params, const struct lanes 
             segment = blend_ints(advancing, segment + 1, segment);
             store_ints(&p->segment[i], segment);
         }
-        *chord = look_up_chord(params, k, segment, &theta);
+        *chord = lookup_chord(params, k, segment, &theta);
         store_chord(&p->chords, i, *chord);
-        advancing &= at_least(to, chord->x1) & greater_ints(last, segment);
+        advancing &= greater_equal(to, chord->x1) & greater_ints(last, segment);
     }
 }
 
 /* Consume the next stem of each of `lanes` by the scalar walk. If it is hit or the rock aborted, pass the marks before it. */
-NOINLINE void take_stems_scalar(struct lanes *k, struct passing *p, unsigned lanes, unsigned hit)
+NOINLINE void consume_stems_scalar(struct lanes *k, struct passing *p, unsigned lanes, unsigned hit)
 {
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
@@ -96,9 +96,9 @@ FORCE_INLINE unsigned fly_over(struct lanes *k, size_t i, unsigned active, real 
 
 /* Consume the next stem of each of `lanes`, whose following stem is queued and is next. Lanes that are `above` all stems
  * consume several. No branch depends on the hits. */
-FORCE_INLINE void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned above)
+FORCE_INLINE void consume_queued(struct lanes *k, unsigned lanes, unsigned hit, unsigned above)
 {
-    uint64_t places = k->job->walkers[0].stems->wood->met_mask;
+    uint64_t places = k->job->walkers[0].stems->forest->met_mask;
     for (above &= lanes; above; above &= above - 1) {
         size_t i = (size_t)__builtin_ctz(above);
         const struct stem *stem = k->stem.next[i];
@@ -124,20 +124,20 @@ FORCE_INLINE void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, un
 
 /* Consume the next stem of each active flight, as ceduo_walk_hit_stem(). It is done in the lanes if the following stem is
  * queued, no mark is passed and no stool stands around the release. */
-FORCE_INLINE void take_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned above)
+FORCE_INLINE void consume_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned above)
 {
     unsigned marks = 0, quick = 0;
     EACH_REGISTER(i) {
         real to = load(&p->stem_x[i]);
-        marks |= lane_bits(at_least(to, load(&k->next_x[i]))) << i;
+        marks |= lane_bits(greater_equal(to, load(&k->next_x[i]))) << i;
         quick |= lane_bits(and_not(less(load(&k->stem.second_x[i]), load(&k->stem.certain_to[i])),
-                                   at_least(load(&k->stem.overlap_to[i]), to)))
+                                   greater_equal(load(&k->stem.overlap_to[i]), to)))
                  << i;
     }
     quick &= ~(marks & hit);
-    take_waiting(k, p->active & quick, hit, above);
+    consume_queued(k, p->active & quick, hit, above);
     if (p->active & ~quick)
-        take_stems_scalar(k, p, p->active & ~quick, hit);
+        consume_stems_scalar(k, p, p->active & ~quick, hit);
 }
 
 /* Move the flights from lane i on to their next stem. Return the lanes that hit it. Lanes that reach the ground before become
@@ -152,7 +152,7 @@ FORCE_INLINE unsigned come_to_stem(struct kernel_params params, struct lanes *k,
     t = blend(less(t, zero), zero, blend(landing_known & less(latest, t), latest, t));
     real z = height_at_time(load(&k->z[i]), vz, k->g->half_g, t), clearance = z - chord_height(&chord, to);
     unsigned other_lanes = ~(REGISTER << i);
-    p->active &= other_lanes | p->landing_known | lane_bits(at_least(clearance, zero)) << i;
+    p->active &= other_lanes | p->landing_known | lane_bits(greater_equal(clearance, zero)) << i;
     unsigned hit = p->active & lane_bits(less(max(clearance, zero), load(&k->stem.height[i]))) << i;
     store(&p->stem_x[i], to);
     store(&p->t[i], t);
@@ -188,7 +188,7 @@ FORCE_INLINE void pass_stem(struct kernel_params params, struct lanes *k, struct
         hit |= come_to_stem(params, k, p, i, &above);
     if (!p->active)
         return;
-    take_stems(k, p, hit, above);
+    consume_stems(k, p, hit, above);
     hit &= ~p->aborted;
     p->active &= ~p->aborted;
     if (hit)
@@ -198,7 +198,7 @@ FORCE_INLINE void pass_stem(struct kernel_params params, struct lanes *k, struct
     p->landing_known &= ~hit;
     EACH_REGISTER(i) {
         forward |= lane_bits(less(splat(0), load(&k->vx[i]))) << i;
-        before_landing |= lane_bits(at_least(load(&k->to_x[i]), load(&k->stem_ahead[i]))) << i;
+        before_landing |= lane_bits(greater_equal(load(&k->to_x[i]), load(&k->stem_ahead[i]))) << i;
     }
     p->active &= ~p->stopped & forward & (~p->landing_known | before_landing);
 }
@@ -210,7 +210,7 @@ FORCE_INLINE void land_at_stems(struct kernel_params params, struct lanes *k, un
         mask m = lane_mask(hit >> i);
         ints segment = load_ints(&k->segment[i]);
         real theta;
-        const struct chord chord = look_up_chord(params, k, segment, &theta);
+        const struct chord chord = lookup_chord(params, k, segment, &theta);
         store(&k->t[i], blend(m, splat(0), load(&k->t[i])));
         store(&k->to_x[i], blend(m, load(&k->x[i]), load(&k->to_x[i])));
         store(&k->to_z[i], blend(m, load(&k->z[i]), load(&k->to_z[i])));
@@ -228,7 +228,7 @@ FORCE_INLINE unsigned pass_stems(struct kernel_params params, struct lanes *k)
     const ints n = splat_ints(k->g->n);
     unsigned entering = 0, scalar = 0;
     EACH_REGISTER(i)
-        entering |= lane_bits(at_least(load(&k->to_x[i]), load(&k->stem_ahead[i])) & less(splat(0), load(&k->vx[i]))) << i;
+        entering |= lane_bits(greater_equal(load(&k->to_x[i]), load(&k->stem_ahead[i])) & less(splat(0), load(&k->vx[i]))) << i;
     entering &= k->live & ~k->at_contact; /* reach a stem before they land */
     p.landing_known = entering & ~k->landing_unknown;
     p.active = entering | k->landing_unknown;
@@ -239,7 +239,7 @@ FORCE_INLINE unsigned pass_stems(struct kernel_params params, struct lanes *k)
     EACH_REGISTER(i) {
         ints segment = load_ints(&k->segment[i]), to = load_ints(&k->to[i]);
         real theta;
-        const struct chord chord = look_up_chord(params, k, segment, &theta);
+        const struct chord chord = lookup_chord(params, k, segment, &theta);
         store_ints(&p.segment[i], segment);
         store_chord(&p.chords, i, chord);
         store(&p.end[i], chord.x1);
@@ -250,7 +250,7 @@ FORCE_INLINE unsigned pass_stems(struct kernel_params params, struct lanes *k)
         /* with an unknown landing, continue while the stem stands over the same segment */
         unsigned over_segment = 0;
         EACH_REGISTER(i)
-            over_segment |= lane_bits(at_least(load(&p.end[i]), load(&k->stem_ahead[i]))) << i;
+            over_segment |= lane_bits(greater_equal(load(&p.end[i]), load(&k->stem_ahead[i]))) << i;
         p.active &= p.landing_known | over_segment;
         scalar |= p.active & k->stem_unknown;
         p.active &= ~k->stem_unknown;

@@ -105,7 +105,7 @@ enum ceduo_status ceduo_prepared_init(struct prepared_scene *to, const struct ce
         return status;
     if (to->simplified.x)
         to->scene.slope = to->simplified;
-    bool good = ceduo_sizes_init(&to->sizes, scene) && ceduo_wood_init(&to->wood, &scene->simulation, option, &to->mean) &&
+    bool good = ceduo_sizes_init(&to->sizes, scene) && ceduo_forest_init(&to->forest, &scene->simulation, option, &to->mean) &&
                 make_marks(&to->marks, &to->scene) &&
                 ceduo_ground_init(&to->ground, &to->scene.slope, scene->simulation.gravity, to->mean.radius,
                                   ceduo_scene_rock_varies(scene));
@@ -137,7 +137,7 @@ enum ceduo_status ceduo_prepared_rock(const struct prepared_scene *prepared, uin
 void ceduo_prepared_release(struct prepared_scene *p)
 {
     ceduo_sizes_release(&p->sizes);
-    ceduo_wood_release(&p->wood);
+    ceduo_forest_release(&p->forest);
     free(p->marks.items);
     ceduo_ground_release(&p->ground);
     ceduo_slope_simplified_free(&p->simplified);

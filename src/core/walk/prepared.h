@@ -3,7 +3,7 @@
 #define CEDUO_PREPARED_H
 
 #include "ceduo/scene.h"
-#include "core/wood/wood.h"
+#include "core/forest/forest.h"
 #include "ground.h"
 
 /* Sizes of the blocks that come down. Their logarithms are uniform over all classes, so that rare large blocks are as precise
@@ -61,7 +61,7 @@ struct prepared_scene {
     struct sizes sizes;
     struct ground ground;
     struct marks marks;
-    struct wood wood;
+    struct forest forest;
 };
 
 /* `option` may be NULL (without forest). Return CEDUO_OK, CEDUO_BAD_ROCK or CEDUO_NO_MEMORY. Caller releases it in any case. */

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/must.h"
+#include "base/oom.h"
 #include "base/parallel.h"
 #include "base/real.h"
 #include "scene/schema.h"
@@ -152,8 +152,8 @@ static bool is_cancelled(void *context)
 static enum ceduo_status record_rock(struct recorder *r, struct ceduo_tracer *follower, uint64_t rock)
 {
     const struct ceduo_record_def *def = r->def;
-    const struct ceduo_trajectory_callbacks watch = {
-        .enough = is_cancelled, .piece = on_piece, .stem = def->blows ? on_stem : NULL, .context = r};
+    const struct ceduo_trajectory_callbacks callbacks = {
+        .is_cancelled = is_cancelled, .segment = on_piece, .stem = def->blows ? on_stem : NULL, .context = r};
     struct ceduo_trajectory trajectory;
     size_t first = r->record->blows_count;
     if (is_cancelled(r))
@@ -163,7 +163,7 @@ static enum ceduo_status record_rock(struct recorder *r, struct ceduo_tracer *fo
     for (size_t i = 0; i < def->stretches_count; i++)
         r->sums[i] = (struct stretch_sums){0};
     enum ceduo_status status =
-        ceduo_tracer_run(follower, rock, &watch, &trajectory, &r->record->crossings[rock * def->scene->controls_count]);
+        ceduo_tracer_run(follower, rock, &callbacks, &trajectory, &r->record->crossings[rock * def->scene->controls_count]);
     if (status != CEDUO_OK || r->no_memory)
         return r->no_memory ? CEDUO_NO_MEMORY : status;
     r->rock->mass = trajectory.rock.mass;

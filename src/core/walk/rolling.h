@@ -11,7 +11,7 @@
 #define STOP_ROUNDING (4 * DBL_EPSILON) /* of the coordinates: minimum distance to a stop */
 #endif
 
-enum roll_outcome { ROLLED, TOOK_OFF, STANDS, ROLLED_OUT, STOPPED };
+enum roll_outcome { ROLLED, LIFTED_OFF, STANDS, ROLLED_OUT, STOPPED };
 
 /* ---- rolling ---- */
 
@@ -85,7 +85,7 @@ NOINLINE void report_roll(struct walker *w, const struct roll *r, double u2_end,
     const struct ceduo_trajectory_segment p = {true, w->flight.x, w->flight.z, u * s->c,  u * s->s,
                                                x1,   z1,          u1 * s->c,   u1 * s->s, w->k > 0 ? u / w->rock.radius : 0,
                                                0,    w->contacts};
-    w->watch->piece(w->watch->context, &p);
+    w->callbacks->segment(w->callbacks->context, &p);
 }
 
 /* Roll along the segment by ds to a point, and report passed marks. */
@@ -93,7 +93,7 @@ static void roll_to(struct walker *w, struct roll *r, double ds, double u2_end, 
 {
     if (r->dir > 0 && w->next_x <= x)
         pass_in_roll(w, r, ds, u2_end, x);
-    if (w->watch && w->watch->piece)
+    if (w->callbacks && w->callbacks->segment)
         report_roll(w, r, u2_end, x, z);
     r->u2 = u2_end;
     w->flight.x = x;
@@ -123,7 +123,7 @@ static __attribute__((noinline)) enum stem_outcome roll_to_stem(struct walker *w
         if (r->dir > 0 ? !(x <= x_end) : !(x >= x_end))
             return NO_STEM;
         struct stem stem;
-        bool taken = take_stem(w, r->dir > 0 ? 0 : 1, &stem);
+        bool taken = consume_stem(w, r->dir > 0 ? 0 : 1, &stem);
         if (!taken && !w->aborted)
             continue;
         double z = ground_height(g, j, x), distance = ground_length(&g->segments[j], w->flight.x, w->flight.z, x, z);
@@ -161,7 +161,7 @@ static enum roll_outcome roll_over_vertex(struct walker *w, struct roll *r, stru
         *l = next_landing(g, &flight);
         if (!is_roll(w, &flight, flight.vz * b->c - flight.vx * b->s, l)) {
             w->flight = flight;
-            return TOOK_OFF;
+            return LIFTED_OFF;
         }
     }
     return ROLLED;

@@ -36,7 +36,7 @@ FORCE_INLINE void facet_struck(bool against, struct velocity v, real *sine, real
 {
     real zero = splat(0);
     if (against)
-        *sine = blend(at_least(v.along, zero), *sine, -*sine);
+        *sine = blend(greater_equal(v.along, zero), *sine, -*sine);
     mask leaves = less(zero, v.off * *cosine - v.along * *sine);
     *sine = blend(leaves, zero, *sine);
     *cosine = blend(leaves, splat(1), *cosine);

@@ -32,21 +32,21 @@ struct ceduo_tracer *ceduo_tracer_create(const struct ceduo_scene *scene, const 
     if (!f)
         return NULL;
     if (ceduo_prepared_init(&f->prepared, scene, option) == CEDUO_OK &&
-        ceduo_stems_init(&f->stems, &f->prepared.wood, CEDUO_KERNEL_BEST))
+        ceduo_stems_init(&f->stems, &f->prepared.forest, CEDUO_KERNEL_BEST))
         return f;
     ceduo_tracer_free(f);
     return NULL;
 }
 
-enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *f, uint64_t rock, const struct ceduo_trajectory_callbacks *watch,
+enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *f, uint64_t rock, const struct ceduo_trajectory_callbacks *callbacks,
                                    struct ceduo_trajectory *to, struct ceduo_crossing *crossings)
 {
     const struct ceduo_scene *scene = &f->prepared.scene;
     struct crossing_writer crossing_writer = {&f->prepared.marks, crossings};
-    struct walker w = {.watch = watch,
+    struct walker w = {.callbacks = callbacks,
                        .cross = store_crossing,
                        .context = &crossing_writer,
-                       .stems = f->prepared.wood.bare ? NULL : &f->stems};
+                       .stems = f->prepared.forest.bare ? NULL : &f->stems};
     if (crossings)
         memset(crossings, 0, scene->controls_count * sizeof *crossings);
     enum ceduo_status status = ceduo_walk_release(&w, &f->prepared, rock);
@@ -76,7 +76,7 @@ void ceduo_tracer_free(struct ceduo_tracer *f)
 }
 
 enum ceduo_status ceduo_trajectory_run(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                       const struct ceduo_trajectory_callbacks *watch, struct ceduo_trajectory *to,
+                                       const struct ceduo_trajectory_callbacks *callbacks, struct ceduo_trajectory *to,
                                        struct ceduo_crossing *crossings)
 {
     if (isnan(ceduo_rock_mean(&scene->rock).mass))
@@ -84,7 +84,7 @@ enum ceduo_status ceduo_trajectory_run(const struct ceduo_scene *scene, const st
     struct ceduo_tracer *f = ceduo_tracer_create(scene, option);
     if (!f)
         return CEDUO_NO_MEMORY;
-    enum ceduo_status status = ceduo_tracer_run(f, rock, watch, to, crossings);
+    enum ceduo_status status = ceduo_tracer_run(f, rock, callbacks, to, crossings);
     ceduo_tracer_free(f);
     return status;
 }

@@ -146,9 +146,9 @@ bool ceduo_walk_roll(struct walker *w, struct rock_state *c, const struct rollin
     c->flight = w->flight;
     c->along = w->along;
     c->off = 0;
-    c->flies = outcome == TOOK_OFF;
+    c->flies = outcome == LIFTED_OFF;
     c->rolled = outcome == ROLLED;
-    return outcome == TOOK_OFF || outcome == ROLLED;
+    return outcome == LIFTED_OFF || outcome == ROLLED;
 }
 
 FORCE_INLINE void set_velocity(const struct walker *w, struct rock_state *c)

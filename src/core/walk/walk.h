@@ -9,7 +9,7 @@
 #include "base/elementary.h"
 #include "base/random.h"
 #include "ceduo/trajectory.h"
-#include "core/wood/stems.h"
+#include "core/forest/stems.h"
 #include "flight.h"
 #include "prepared.h"
 
@@ -61,12 +61,12 @@ struct walker {
     } facets, turns;             /* turns: orientation of the section */
     /* called at a control */
     void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
-    const struct ceduo_trajectory_callbacks *watch; /* may be NULL */
-    void *context;                                  /* of cross */
-    bool arrivals_only;                             /* stop soon after the last mark, with CEDUO_UNFINISHED */
-    const atomic_bool *cancel;                      /* checked regularly on long trajectories; may be NULL */
-    bool cancelled;                                 /* cancelled or out of memory: the trajectory is incomplete */
-    bool aborted;                                   /* among stems: cancelled, or too many stems */
+    const struct ceduo_trajectory_callbacks *callbacks; /* may be NULL */
+    void *context;                                      /* of cross */
+    bool arrivals_only;                                 /* stop soon after the last mark, with CEDUO_UNFINISHED */
+    const atomic_bool *cancel;                          /* checked regularly on long trajectories; may be NULL */
+    bool cancelled;                                     /* cancelled or out of memory: the trajectory is incomplete */
+    bool aborted;                                       /* among stems: cancelled, or too many stems */
 };
 
 /* State of a rock between two contacts: in flight to `l`, or on the ground at its next contact. */

@@ -23,7 +23,7 @@ const struct kernel ceduo_kernel_scalar = {NULL, fill_points, make_stools};
 
 /* Draw a diameter from the gamma distribution, after Marsaglia and Tsang 2000. `extra` 1: weighted by the diameter, because
  * thick stems are met more often. */
-static double draw_dbh(const struct stems *s, const struct wood_kind *k, uint64_t event, uint64_t kind, int extra)
+static double draw_dbh(const struct stems *s, const struct forest_kind *k, uint64_t event, uint64_t kind, int extra)
 {
     double shape = k->shape + extra, scale = k->scale;
     if (shape < 1) { /* their method needs shape >= 1 */
@@ -46,7 +46,7 @@ static double draw_dbh(const struct stems *s, const struct wood_kind *k, uint64_
 /* Set energy and height of a stem, from its kind, diameter and offset. */
 static void set_hit(const struct stems *s, struct stem *stem)
 {
-    const struct wood_kind *kind = stem->kind;
+    const struct forest_kind *kind = stem->kind;
     double share = kind->by_eccentricity ? ceduo_dorren_share(ceduo_stem_eccentricity(stem, s->b)) : 1;
     stem->energy = kind->shape > 0 ? ceduo_stem_energy_hit(&kind->hit_energy, stem->dbh, share) : share * kind->full_energy;
     stem->height = get_hit_height(s, kind);
@@ -93,12 +93,12 @@ static inline void insert_stem(struct stems *s, struct stems_side *side, const s
 static void queue_stem(struct stems *s, int i_side, struct stem *stem)
 {
     set_hit(s, stem);
-    bool behind = i_side == 0 && stem->along < s->start;
-    struct stems_side *to = &s->side[behind ? 1 : i_side];
-    stem->along = behind ? -stem->along : stem->along;
+    bool is_behind = i_side == 0 && stem->along < s->start;
+    struct stems_side *to = &s->side[is_behind ? 1 : i_side];
+    stem->along = is_behind ? -stem->along : stem->along;
     if (!stem->shoot || stem->kind->shape > 0)
         to->unequal_to = fmax(to->unequal_to, stem->along);
-    if (!behind || reserve_queue(s, to, 1))
+    if (!is_behind || reserve_queue(s, to, 1))
         insert_stem(s, to, stem);
 }
 
@@ -106,7 +106,7 @@ static void queue_stem(struct stems *s, int i_side, struct stem *stem)
 static __attribute__((noinline)) double draw_places(struct stems *s, int i_side, enum stem_stream stream)
 {
     struct points *p = get_points(&s->side[i_side], stream);
-    if (p->end_belt == s->wood->belts)
+    if (p->end_belt == s->forest->belts)
         return INFINITY;
     s->kernel->fill(s, i_side, stream);
     return p->count > 0 ? p->along[0] : INFINITY;
@@ -151,7 +151,7 @@ static void make_stool(struct stems *s, int i_side)
     const struct points *p = &side->streams[STREAM_STOOLS];
     bool unequal = side->first < side->end && side->unequal_to >= side->queue[side->first].along;
     bool plain = is_plain_stool(s, i_side) && side->end - side->first < SHOOTS_ENOUGH && !unequal;
-    size_t n = plain ? SHOOTS_MAX : s->wood->sides[i_side][p->belt[p->next]].stools->n + 1;
+    size_t n = plain ? SHOOTS_MAX : s->forest->sides[i_side][p->belt[p->next]].stools->n + 1;
     if (!reserve_queue(s, side, n))
         return;
     if (plain)
@@ -161,13 +161,13 @@ static void make_stool(struct stems *s, int i_side)
 }
 
 /* Return the stratum of a place in a merged stream; sets *u, uniform in [0, 1) within it. */
-static const struct wood_stratum *pick_stratum(struct stems *s, int side, const struct wood_belt *belt, size_t j,
-                                               enum stem_stream stream, double mark, double *u)
+static const struct forest_stratum *pick_stratum(struct stems *s, int side, const struct forest_belt *belt, size_t j,
+                                                 enum stem_stream stream, double mark, double *u)
 {
     double remaining = mark * rates_in(s, side, j)->rate[stream], rate = 0;
-    const struct wood_stratum *found = NULL;
+    const struct forest_stratum *found = NULL;
     for (size_t k = 0; k < belt->strata_count; k++) {
-        const struct wood_stratum *stratum = &belt->strata[k];
+        const struct forest_stratum *stratum = &belt->strata[k];
         if (get_stream(stratum) != stream)
             continue;
         found = stratum;
@@ -190,8 +190,8 @@ static __attribute__((noinline)) void make_group(struct stems *s, int i_side)
     unsigned k = p->next;
     uint64_t event = get_event(p, STREAM_GROUPS, i_side, k);
     double u;
-    const struct wood_belt *belt = &s->wood->sides[i_side][p->belt[k]];
-    const struct wood_stratum *t = pick_stratum(s, i_side, belt, p->belt[k], STREAM_GROUPS, p->mark[k], &u);
+    const struct forest_belt *belt = &s->forest->sides[i_side][p->belt[k]];
+    const struct forest_stratum *t = pick_stratum(s, i_side, belt, p->belt[k], STREAM_GROUPS, p->mark[k], &u);
     if (!reserve_queue(s, &s->side[i_side], t->group))
         return;
     p->next++;
@@ -232,8 +232,8 @@ static void make_single(struct stems *s, int i_side)
     unsigned k = p->next;
     uint64_t event = get_event(p, STREAM_SINGLE, i_side, k);
     double u;
-    const struct wood_belt *belt = &s->wood->sides[i_side][p->belt[k]];
-    const struct wood_kind *kind = pick_stratum(s, i_side, belt, p->belt[k], STREAM_SINGLE, p->mark[k], &u)->kind;
+    const struct forest_belt *belt = &s->forest->sides[i_side][p->belt[k]];
+    const struct forest_kind *kind = pick_stratum(s, i_side, belt, p->belt[k], STREAM_SINGLE, p->mark[k], &u)->kind;
     double d = kind->dbh;
     if (kind->shape > 0) /* probability of an encounter is proportional to b + d */
         d = draw_dbh(s, kind, event, RANDOM_DBH, u * (s->b + d) >= s->b);
@@ -274,9 +274,9 @@ static void find_next(struct stems *s, int i)
         side->next = side->next_queued ? queued : single;
         side->next_known = true;
         /* minimum place of stems that are not drawn yet, of the next stool or group */
-        double reach = next_place(s, i, STREAM_STOOLS) - s->wood->reach;
-        if (s->wood->grouped) {
-            double groups = next_place(s, i, STREAM_GROUPS) - s->wood->group_reach;
+        double reach = next_place(s, i, STREAM_STOOLS) - s->forest->reach;
+        if (s->forest->grouped) {
+            double groups = next_place(s, i, STREAM_GROUPS) - s->forest->group_reach;
             group = groups < reach;
             reach = group ? groups : reach;
         }
@@ -295,13 +295,13 @@ static void find_next(struct stems *s, int i)
     }
 }
 
-/* Restart a side: singles from `from` on, stools and groups from their reach before it (`by` 1) or after it (`by` -1). */
-static void reset_side(struct stems *s, int i, double from, double by)
+/* Restart a side: singles from `from` on, stools and groups from their reach before it (`direction` 1) or after it (-1). */
+static void reset_side(struct stems *s, int i, double from, double direction)
 {
     struct stems_side *side = &s->side[i];
-    const double starts[STREAMS] = {[STREAM_STOOLS] = from - by * s->wood->reach,
+    const double starts[STREAMS] = {[STREAM_STOOLS] = from - direction * s->forest->reach,
                                     [STREAM_SINGLE] = from,
-                                    [STREAM_GROUPS] = from - by * s->wood->group_reach};
+                                    [STREAM_GROUPS] = from - direction * s->forest->group_reach};
     for (int k = 0; k < STREAMS; k++) {
         struct points *p = get_points(side, (enum stem_stream)k);
         if (!p)
@@ -327,10 +327,10 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
         s->side[i].first = s->side[i].end = 0;
         s->side[i].unequal_to = -INFINITY;
     }
-    memset(s->hit_stools, 0, (s->wood->met_mask + 1) * sizeof *s->hit_stools);
+    memset(s->hit_stools, 0, (s->forest->met_mask + 1) * sizeof *s->hit_stools);
     reset_side(s, 0, x, 1);
     find_next(s, 0);
-    bool any = s->wood->sides[0][0].from < x + fmax(s->wood->reach, s->wood->group_reach);
+    bool any = s->forest->sides[0][0].from < x + fmax(s->forest->reach, s->forest->group_reach);
     s->side[1].next = any ? -x : INFINITY;
     s->side[1].next_known = false;
 }
@@ -342,9 +342,9 @@ void ceduo_stems_advance(struct stems *s, int i)
     if (i == 1 && !s->behind_ready) {
         /* The strip behind the release is drawn only when a rock enters it. Stools and groups around the release belong to side
          * 0. */
-        if (!make_centres_to(s, 0, STREAM_STOOLS, s->start + s->wood->reach))
+        if (!make_centres_to(s, 0, STREAM_STOOLS, s->start + s->forest->reach))
             return;
-        if (s->wood->grouped && !make_centres_to(s, 0, STREAM_GROUPS, s->start + s->wood->group_reach))
+        if (s->forest->grouped && !make_centres_to(s, 0, STREAM_GROUPS, s->start + s->forest->group_reach))
             return;
         s->behind_ready = true;
         find_next(s, 0);
@@ -364,29 +364,29 @@ void ceduo_stems_advance(struct stems *s, int i)
 
 void ceduo_stems_mark_hit_behind(struct stems *s, uint64_t stool)
 {
-    const struct stems_side *behind = &s->side[1];
-    for (size_t i = behind->first; i < behind->end; i++)
-        behind->queue[i].stool_hit |= behind->queue[i].stool == stool;
+    const struct stems_side *side_behind = &s->side[1];
+    for (size_t i = side_behind->first; i < side_behind->end; i++)
+        side_behind->queue[i].stool_hit |= side_behind->queue[i].stool == stool;
 }
 
 /* ---- making and freeing ---- */
 
-bool ceduo_stems_init(struct stems *stems, const struct wood *wood, enum ceduo_kernel kernel)
+bool ceduo_stems_init(struct stems *stems, const struct forest *forest, enum ceduo_kernel kernel)
 {
-    stems->wood = wood;
+    stems->forest = forest;
     stems->kernel = ceduo_kernel(kernel);
     bool good = true;
     for (int i = 0; i < 2; i++) {
         struct stems_side *side = &stems->side[i];
         side->streams[STREAM_STOOLS].size = POINTS;
         side->streams[STREAM_SINGLE].size = POINTS_SPARSE;
-        side->groups = wood->grouped ? calloc(1, sizeof *side->groups) : NULL;
-        good &= !wood->grouped || side->groups;
+        side->groups = forest->grouped ? calloc(1, sizeof *side->groups) : NULL;
+        good &= !forest->grouped || side->groups;
         if (side->groups)
             side->groups->size = POINTS_SPARSE;
     }
-    stems->hit_stools = calloc(wood->met_mask + 1, sizeof *stems->hit_stools);
-    stems->rates = calloc(wood->belts + 1, sizeof *stems->rates);
+    stems->hit_stools = calloc(forest->met_mask + 1, sizeof *stems->hit_stools);
+    stems->rates = calloc(forest->belts + 1, sizeof *stems->rates);
     if (good && stems->hit_stools && stems->rates)
         return true;
     ceduo_stems_release(stems);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "typed.h"
+#include "value_text.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -178,7 +178,7 @@ void ceduo_input_parse_value(const struct field *f, const char *typed, struct te
 
 /* ---- ranges ---- */
 
-bool ceduo_input_is_in_range(const struct field *f, const char *typed, struct text *why)
+bool ceduo_input_is_in_range(const struct field *f, const char *typed, struct text *reason)
 {
     double shown;
     if (!is_number(f) || ceduo_input_parse_number(typed, &shown) != CEDUO_NUMBER_GOOD ||
@@ -187,11 +187,11 @@ bool ceduo_input_is_in_range(const struct field *f, const char *typed, struct te
     double lo = f->lo * f->shown.per, hi = f->hi * f->shown.per;
     const char *unit = ceduo_format_unit(f), *blank = unit[0] ? " " : "";
     if (shown < lo)
-        ceduo_text_format(why, _("%s: %s is below %.5g%s%s"), _(f->shown.label), typed, lo, blank, unit);
+        ceduo_text_format(reason, _("%s: %s is below %.5g%s%s"), _(f->shown.label), typed, lo, blank, unit);
     else if (shown > hi)
-        ceduo_text_format(why, _("%s: %s is above %.5g%s%s"), _(f->shown.label), typed, hi, blank, unit);
+        ceduo_text_format(reason, _("%s: %s is above %.5g%s%s"), _(f->shown.label), typed, hi, blank, unit);
     else
-        ceduo_text_format(why, _("%s: %s itself is outside the range"), _(f->shown.label), typed);
+        ceduo_text_format(reason, _("%s: %s itself is outside the range"), _(f->shown.label), typed);
     return false;
 }
 
@@ -204,7 +204,7 @@ bool ceduo_input_is_unusual(const struct field *f, const char *typed, struct tex
         return false;
     const char *unit = ceduo_format_unit(f);
     ceduo_text_format(question, _("%s: %g%s%s? Usual is %g to %g. Enter once more takes it."), _(f->shown.label), shown,
-                      unit[0] ? " " : "", unit, f->shown.least * f->shown.per, f->shown.most * f->shown.per);
+                      unit[0] ? " " : "", unit, f->shown.usual_min * f->shown.per, f->shown.usual_max * f->shown.per);
     return true;
 }
 

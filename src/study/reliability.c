@@ -2,7 +2,7 @@
 /* Computes the probability of reaching a goal under uncertain inputs, from plausible scenes (points.c). The goal of a scene
  * is that of its worst control. Over a rotation shares of rocks are means over the years; other goals are those of the worst
  * year. */
-#include "sure.h"
+#include "reliability.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
@@ -176,14 +176,16 @@ static enum ceduo_status read_surface(const struct reliability_def *def, struct 
 enum ceduo_status ceduo_reliability_compute(const struct reliability_def *def, struct reliability_result *answer)
 {
     GSL_RETURNS_ERRORS;
-    struct ceduo_uncertainty_def alone = def->uncertainty;
-    const struct ceduo_scene *scene = alone.scene;
-    size_t points = alone.inputs_count > 0 ? alone.points : 1, n = alone.inputs_count;
+    struct ceduo_uncertainty_def one_option_def = def->uncertainty;
+    const struct ceduo_scene *scene = one_option_def.scene;
+    size_t points = one_option_def.inputs_count > 0 ? one_option_def.points : 1, n = one_option_def.inputs_count;
     struct reliability s = {.def = def, .slots = 1};
-    if (alone.rotation)
-        s.slots = ceduo_points_years(&alone);
-    alone.alone = true;
-    alone.rocks = !ceduo_goals[def->goal].needs_rocks ? 0 : alone.rocks > GROUPS ? alone.rocks : GROUPS;
+    if (one_option_def.rotation)
+        s.slots = ceduo_points_years(&one_option_def);
+    one_option_def.one_option = true;
+    one_option_def.rocks = !ceduo_goals[def->goal].needs_rocks ? 0
+                           : one_option_def.rocks > GROUPS     ? one_option_def.rocks
+                                                               : GROUPS;
     double *u = malloc((points * n + 1) * sizeof *u);
     struct ceduo_replicates *column = malloc(points * sizeof *column);
     struct ceduo_surface *surface = NULL;
@@ -193,10 +195,11 @@ enum ceduo_status ceduo_reliability_compute(const struct reliability_def *def, s
         status = ceduo_surface_points(scene->simulation.seed, points, n, u);
     if (status == CEDUO_OK)
         status = ceduo_points_run(
-            &(const struct points){.def = &alone, .u = u, .today = !alone.rotation, .read = read_point, .context = &s}, 0,
-            points, 0);
+            &(const struct points){
+                .def = &one_option_def, .u = u, .today = !one_option_def.rotation, .read = read_point, .context = &s},
+            0, points, 0);
     if (status == CEDUO_OK && n > 0)
-        status = ceduo_surface_open(alone.inputs, n, u, points, &surface);
+        status = ceduo_surface_open(one_option_def.inputs, n, u, points, &surface);
     if (status == CEDUO_OK)
         status = fill_column(&s, surface, points, column);
     if (status == CEDUO_OK && n > 0) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_WOOD_H
-#define CEDUO_WOOD_H
+#ifndef CEDUO_FOREST_H
+#define CEDUO_FOREST_H
 
 #include "ceduo/scene.h"
 #include "core/stand/energy.h"
@@ -8,8 +8,8 @@
 /* An option's forest, prepared belt by belt for drawing stems. */
 
 /* Stems of one kind: a cohort of shoots, a class of trees, stumps or logs. */
-struct wood_kind {
-    /* Inputs, hashed by ceduo_wood_hash(): */
+struct forest_kind {
+    /* Inputs, hashed by ceduo_forest_hash(): */
     double dbh;          /* m, mean; NaN: a log */
     double height;       /* m */
     double hit_below;    /* m: a hit takes no energy if the rock's centre is higher; infinite: no limit */
@@ -25,60 +25,60 @@ struct wood_kind {
 };
 
 /* A Poisson process along x with base_rate + rate_per_b·b encounters per metre, for a rock of diameter b. */
-struct wood_stratum {
-    double base_rate, rate_per_b; /* 1/m; 1/m2; hashed */
-    const struct wood_kind *kind; /* NULL: stools */
-    unsigned group;               /* trees per group; 0: not grouped */
-    double radius;                /* m: radius of the disc of a group */
+struct forest_stratum {
+    double base_rate, rate_per_b;   /* 1/m; 1/m2; hashed */
+    const struct forest_kind *kind; /* NULL: stools */
+    unsigned group;                 /* trees per group; 0: not grouped */
+    double radius;                  /* m: radius of the disc of a group */
 };
 
-#define WOOD_RING_STEP 8 /* shoots of a ring that may be read at once */
+#define FOREST_RING_STEP 8 /* shoots of a ring that may be read at once */
 
 /* The stools of a belt: a ring of n shoots, or of n + 1 with probability extra_chance. */
-struct wood_stools {
+struct forest_stools {
     unsigned n;
     double extra_chance;
     double radius[2];      /* m: of the rings of n and n + 1 */
     const double *ring[2]; /* cosines of the shoots' angles, then, at ring_capacity, their sines */
-    size_t ring_capacity;  /* a multiple of WOOD_RING_STEP, above n + 1 */
+    size_t ring_capacity;  /* a multiple of FOREST_RING_STEP, above n + 1 */
     double turn[2];        /* range of the random rotation of a ring, 2 pi/n; 0 for one shoot */
     double reach;          /* m: the larger radius */
     double dbh_max;        /* m: maximum dbh */
     bool dbh_varies;       /* diameters vary within a cohort */
     size_t cohorts;
-    const struct wood_kind *kinds;
+    const struct forest_kind *kinds;
 };
 
-struct wood_belt {
+struct forest_belt {
     double from, to; /* m: x on side 0, -x on side 1 */
-    const struct wood_stratum *strata;
+    const struct forest_stratum *strata;
     size_t strata_count;
-    const struct wood_stools *stools; /* NULL: none */
+    const struct forest_stools *stools; /* NULL: none */
 };
 
-struct wood {
+struct forest {
     bool bare;            /* no contacts are possible */
     bool by_eccentricity; /* the energy of some kinds depends on eccentricity */
     size_t belts;
-    struct wood_belt *sides[2]; /* belts for rocks moving along +x and -x, in the order they are reached */
-    double reach;               /* m: maximum radius of the rings */
-    bool grouped;               /* there are groups of trees */
-    double group_reach;         /* m: maximum radius of the groups */
-    double tallest;             /* m: maximum height of shoots and trees of groups */
-    size_t met_mask;            /* 2^k - 1: size of stems.hit_stools, far more than the stools in reach of a rock */
-    struct wood_kind *kinds;
-    struct wood_stratum *strata_buffer;
-    struct wood_stools *stools;
+    struct forest_belt *sides[2]; /* belts for rocks moving along +x and -x, in the order they are reached */
+    double reach;                 /* m: maximum radius of the rings */
+    bool grouped;                 /* there are groups of trees */
+    double group_reach;           /* m: maximum radius of the groups */
+    double tallest;               /* m: maximum height of shoots and trees of groups */
+    size_t met_mask;              /* 2^k - 1: size of stems.hit_stools, far more than the stools in reach of a rock */
+    struct forest_kind *kinds;
+    struct forest_stratum *strata_buffer;
+    struct forest_stools *stools;
     double **rings;
 };
 
 /* Prepare a forest for the contact model of `simulation`. It is bare with `index`, or without an option. `mean`: the mean rock.
  * False without memory. */
-bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
-                     const struct ceduo_rock *mean);
-void ceduo_wood_release(struct wood *wood);
+bool ceduo_forest_init(struct forest *forest, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
+                       const struct ceduo_rock *mean);
+void ceduo_forest_release(struct forest *forest);
 
 /* Mix the inputs of such a forest into a hash. False if it is bare. */
-bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option);
+bool ceduo_forest_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_MUST_H
-#define CEDUO_MUST_H
+#ifndef CEDUO_OOM_H
+#define CEDUO_OOM_H
 
 #include <stdbool.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_SEEN_H
-#define CEDUO_SEEN_H
+#ifndef CEDUO_OBSERVED_STOPS_H
+#define CEDUO_OBSERVED_STOPS_H
 
 #include "ceduo/observe.h"
 

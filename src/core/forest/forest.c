@@ -2,7 +2,7 @@
 /* Preparation of an option's forest for drawing stems. Each belt has strata with a rate of encounters per metre: stools,
  * classes of trees, stumps and logs. The forest owns all kinds, strata and rings; belts only point to them. The key of a forest
  * is hashed from the same kinds and strata. */
-#include "wood.h"
+#include "forest.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,14 +35,14 @@ static double find_dbh_max(double shape, double scale)
 /* A smaller spread does not change a double; the shape of its gamma distribution would overflow. */
 #define SPREAD_MIN 1e-9 /* of the diameter */
 
-static struct wood_kind make_kind(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+static struct forest_kind make_kind(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    struct wood_kind k = {.dbh = stems->dbh,
-                          .dbh_max = stems->dbh,
-                          .height = stems->height,
-                          .hit_below = stand->hit_below > 0 ? stand->hit_below : INFINITY,
-                          .energy = NAN,
-                          .hit_energy = ceduo_stem_energy(stand, stems)};
+    struct forest_kind k = {.dbh = stems->dbh,
+                            .dbh_max = stems->dbh,
+                            .height = stems->height,
+                            .hit_below = stand->hit_below > 0 ? stand->hit_below : INFINITY,
+                            .energy = NAN,
+                            .hit_energy = ceduo_stem_energy(stand, stems)};
     if (stems->dbh_sd > SPREAD_MIN * stems->dbh) {
         double ratio = stems->dbh / stems->dbh_sd;
         k.shape = ratio * ratio;
@@ -54,10 +54,10 @@ static struct wood_kind make_kind(const struct ceduo_stand *stand, const struct 
     return k;
 }
 
-static struct wood_stratum plain_stratum(double per_ha, double width, const struct wood_kind *kind)
+static struct forest_stratum plain_stratum(double per_ha, double width, const struct forest_kind *kind)
 {
     double per_m2 = per_ha / HECTARE;
-    return (struct wood_stratum){per_m2 * width, per_m2, kind, 0, 0};
+    return (struct forest_stratum){per_m2 * width, per_m2, kind, 0, 0};
 }
 
 /* Return the number of kinds of a stand. */
@@ -67,7 +67,7 @@ static size_t count_kinds(const struct ceduo_stand *stand)
 }
 
 /* Make kind i of a stand, and return its stratum. */
-static struct wood_stratum make_stratum(const struct ceduo_stand *stand, size_t i, struct wood_kind *kind)
+static struct forest_stratum make_stratum(const struct ceduo_stand *stand, size_t i, struct forest_kind *kind)
 {
     size_t shoots = stand->shoots_count, stumps = shoots + stand->trees_count;
     if (i < shoots) { /* cohorts share the stratum of the stools */
@@ -76,7 +76,7 @@ static struct wood_stratum make_stratum(const struct ceduo_stand *stand, size_t 
         for (size_t k = 0; k <= i; k++)
             sum += stand->shoots[k].per_ha;
         kind->share_to = i + 1 < shoots ? sum / ceduo_stand_shoots(stand) : 1;
-        return (struct wood_stratum){.kind = kind};
+        return (struct forest_stratum){.kind = kind};
     }
     if (i < stumps) {
         const struct ceduo_stems *trees = &stand->trees[i - shoots];
@@ -85,32 +85,32 @@ static struct wood_stratum make_stratum(const struct ceduo_stand *stand, size_t 
             return plain_stratum(trees->per_ha, kind->dbh, kind);
         /* the stratum of a group counts its centre, in a strip within reach of its trees */
         double per_m2 = trees->per_ha / HECTARE / trees->group, width = 2 * trees->group_radius + kind->dbh_max;
-        return (struct wood_stratum){per_m2 * width, per_m2, kind, trees->group, trees->group_radius};
+        return (struct forest_stratum){per_m2 * width, per_m2, kind, trees->group, trees->group_radius};
     }
     /* stumps and logs have their own energy, whatever the law of the stems */
     const struct ceduo_stumps *t = &stand->stumps;
     const struct ceduo_logs *l = &stand->logs;
     if (i == stumps && t->per_ha > 0) {
-        *kind = (struct wood_kind){
+        *kind = (struct forest_kind){
             .dbh = t->diameter, .dbh_max = t->diameter, .height = t->height, .hit_below = INFINITY, .energy = t->energy};
         return plain_stratum(t->per_ha, t->diameter, kind);
     }
     /* a log lies across the path: dbh NaN, because it has no eccentricity */
-    *kind = (struct wood_kind){.dbh = NAN, .height = l->diameter, .hit_below = INFINITY, .energy = l->energy};
+    *kind = (struct forest_kind){.dbh = NAN, .height = l->diameter, .hit_below = INFINITY, .energy = l->energy};
     return plain_stratum(l->per_ha, ceduo_log_width(l->length), kind);
 }
 
 /* ---- stools ---- */
 
-static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *stand, const struct wood_kind *kinds)
+static bool make_stools(struct forest *w, size_t belt, const struct ceduo_stand *stand, const struct forest_kind *kinds)
 {
-    struct wood_stools *s = &w->stools[belt];
+    struct forest_stools *s = &w->stools[belt];
     double per_stool = ceduo_stand_shoots(stand) / stand->stools_per_ha;
     s->n = (unsigned)floor(per_stool);
     s->extra_chance = per_stool - floor(per_stool);
     s->cohorts = stand->shoots_count;
     s->kinds = kinds;
-    s->ring_capacity = ((size_t)s->n / WOOD_RING_STEP + 1) * WOOD_RING_STEP;
+    s->ring_capacity = ((size_t)s->n / FOREST_RING_STEP + 1) * FOREST_RING_STEP;
     for (unsigned i = 0; i < (s->extra_chance > 0 ? 2 : 1); i++) {
         double *ring = w->rings[2 * belt + i] = calloc(2 * s->ring_capacity, sizeof *ring);
         if (!ring)
@@ -134,10 +134,10 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
 /* ---- belts ---- */
 
 /* Make the strata of a belt; the first is for stools. */
-static bool make_belt(struct wood *w, size_t belt, const struct ceduo_stand *stand, struct wood_kind *kinds,
-                      struct wood_stratum *strata)
+static bool make_belt(struct forest *w, size_t belt, const struct ceduo_stand *stand, struct forest_kind *kinds,
+                      struct forest_stratum *strata)
 {
-    struct wood_belt *to = &w->sides[0][belt];
+    struct forest_belt *to = &w->sides[0][belt];
     size_t n = 1;
     for (size_t i = 0; i < count_kinds(stand); i++) {
         strata[n] = make_stratum(stand, i, &kinds[i]);
@@ -153,13 +153,13 @@ static bool make_belt(struct wood *w, size_t belt, const struct ceduo_stand *sta
         return true;
     if (!make_stools(w, belt, stand, kinds))
         return false;
-    const struct wood_stools *s = to->stools = &w->stools[belt];
+    const struct forest_stools *s = to->stools = &w->stools[belt];
     double per_m2 = stand->stools_per_ha / HECTARE;
-    strata[0] = (struct wood_stratum){per_m2 * (2 * s->reach + s->dbh_max), per_m2, NULL, 0, 0};
+    strata[0] = (struct forest_stratum){per_m2 * (2 * s->reach + s->dbh_max), per_m2, NULL, 0, 0};
     return true;
 }
 
-static bool allocate(struct wood *w, const struct ceduo_option *option)
+static bool allocate(struct forest *w, const struct ceduo_option *option)
 {
     size_t kinds = 0;
     for (size_t i = 0; i < option->belts_count; i++)
@@ -178,7 +178,7 @@ static bool allocate(struct wood *w, const struct ceduo_option *option)
 _Static_assert(MET_MAX > CEDUO_STEMS_MAX, "a rock that is among more stools is not followed further");
 
 /* Return the mask of a hash table for all stools within reach of a rock, on either side; far above the random maximum. */
-static size_t choose_met_mask(const struct wood *w, double b)
+static size_t choose_met_mask(const struct forest *w, double b)
 {
     double rate_max = 0;
     for (size_t i = 0; i < w->belts; i++)
@@ -191,63 +191,63 @@ static size_t choose_met_mask(const struct wood *w, double b)
     return places - 1;
 }
 
-bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
-                     const struct ceduo_rock *mean)
+bool ceduo_forest_init(struct forest *forest, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
+                       const struct ceduo_rock *mean)
 {
-    *wood = (struct wood){.bare = true};
+    *forest = (struct forest){.bare = true};
     if (!option || simulation->contact_model == CEDUO_INDEX)
         return true;
-    if (!allocate(wood, option))
+    if (!allocate(forest, option))
         goto fail;
     size_t kinds_used = 0;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
-        struct wood_belt *to = &wood->sides[0][i];
-        *to = (struct wood_belt){.from = belt->from, .to = belt->to, .strata = &wood->strata_buffer[kinds_used]};
+        struct forest_belt *to = &forest->sides[0][i];
+        *to = (struct forest_belt){.from = belt->from, .to = belt->to, .strata = &forest->strata_buffer[kinds_used]};
         if (ceduo_stand_is_bare(&belt->stand))
             continue;
-        wood->bare = false;
-        if (!make_belt(wood, i, &belt->stand, &wood->kinds[kinds_used], &wood->strata_buffer[kinds_used]))
+        forest->bare = false;
+        if (!make_belt(forest, i, &belt->stand, &forest->kinds[kinds_used], &forest->strata_buffer[kinds_used]))
             goto fail;
         kinds_used += count_kinds(&belt->stand) + 1;
     }
-    for (size_t i = 0; i < wood->belts; i++) {
-        const struct wood_belt *ahead = &wood->sides[0][wood->belts - 1 - i];
-        wood->sides[1][i] = *ahead;
-        wood->sides[1][i].from = -ahead->to;
-        wood->sides[1][i].to = -ahead->from;
+    for (size_t i = 0; i < forest->belts; i++) {
+        const struct forest_belt *forward_belt = &forest->sides[0][forest->belts - 1 - i];
+        forest->sides[1][i] = *forward_belt;
+        forest->sides[1][i].from = -forward_belt->to;
+        forest->sides[1][i].to = -forward_belt->from;
     }
-    wood->met_mask = choose_met_mask(wood, mean->mean_diameter);
-    for (struct wood_kind *k = wood->kinds; k < wood->kinds + kinds_used; k++) {
+    forest->met_mask = choose_met_mask(forest, mean->mean_diameter);
+    for (struct forest_kind *k = forest->kinds; k < forest->kinds + kinds_used; k++) {
         bool depends = isnan(k->energy);
         k->full_energy = depends ? ceduo_stem_energy_hit(&k->hit_energy, k->dbh, 1) : k->energy;
         k->by_eccentricity = depends && ceduo_stem_energy_by_eccentricity(&k->hit_energy);
-        wood->by_eccentricity |= k->by_eccentricity;
+        forest->by_eccentricity |= k->by_eccentricity;
     }
     return true;
 fail:
-    ceduo_wood_release(wood);
+    ceduo_forest_release(forest);
     return false;
 }
 
-void ceduo_wood_release(struct wood *wood)
+void ceduo_forest_release(struct forest *forest)
 {
-    for (size_t i = 0; wood->rings && i < 2 * wood->belts; i++)
-        free(wood->rings[i]);
-    free(wood->rings);
-    free(wood->stools);
-    free(wood->strata_buffer);
-    free(wood->kinds);
-    free(wood->sides[0]);
-    free(wood->sides[1]);
-    *wood = (struct wood){.bare = true};
+    for (size_t i = 0; forest->rings && i < 2 * forest->belts; i++)
+        free(forest->rings[i]);
+    free(forest->rings);
+    free(forest->stools);
+    free(forest->strata_buffer);
+    free(forest->kinds);
+    free(forest->sides[0]);
+    free(forest->sides[1]);
+    *forest = (struct forest){.bare = true};
 }
 
 /* ---- hashing ---- */
 
 /* Uses the kinds and strata of the prepared forest, but allocates no memory and cannot fail. */
 
-bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option)
+bool ceduo_forest_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option)
 {
     bool bare = true;
     if (!option || simulation->contact_model == CEDUO_INDEX)
@@ -269,12 +269,12 @@ bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, 
             hash_double(hash, stand->spacing);
         }
         for (size_t k = 0; k < kinds; k++) {
-            struct wood_kind kind;
-            const struct wood_stratum stratum = make_stratum(stand, k, &kind);
+            struct forest_kind kind;
+            const struct forest_stratum stratum = make_stratum(stand, k, &kind);
             hash_each(hash, stratum.base_rate, stratum.rate_per_b);
-            _Static_assert(offsetof(struct wood_stratum, kind) == 2 * sizeof(double), "all numbers before it are hashed");
+            _Static_assert(offsetof(struct forest_stratum, kind) == 2 * sizeof(double), "all numbers before it are hashed");
             hash_each(hash, kind.dbh, kind.height, kind.hit_below, kind.energy, kind.shape, kind.scale, kind.share_to);
-            _Static_assert(offsetof(struct wood_kind, dbh_max) == 7 * sizeof(double), "all numbers before it are hashed");
+            _Static_assert(offsetof(struct forest_kind, dbh_max) == 7 * sizeof(double), "all numbers before it are hashed");
             if (isnan(kind.energy))
                 ceduo_stem_energy_hash(hash, &kind.hit_energy);
             hash_count(hash, stratum.group);

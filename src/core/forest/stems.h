@@ -22,7 +22,7 @@ static inline bool ceduo_stems_too_many(const struct stems *stems)
 }
 
 /* Initialise `stems`, which must be zeroed: it is large, and mostly never touched. False without memory. */
-bool ceduo_stems_init(struct stems *stems, const struct wood *wood, enum ceduo_kernel kernel);
+bool ceduo_stems_init(struct stems *stems, const struct forest *forest, enum ceduo_kernel kernel);
 void ceduo_stems_release(struct stems *stems);
 
 /* Begin the trajectory of rock `number`, of mean diameter b (m), released at x. */
@@ -56,10 +56,10 @@ static inline bool ceduo_stems_record_hit(struct stems *stems, const struct stem
 {
     if (!stem->shoot)
         return true;
-    uint64_t *place = &stems->hit_stools[stem->stool & stems->wood->met_mask];
+    uint64_t *place = &stems->hit_stools[stem->stool & stems->forest->met_mask];
     bool first = (*place != stem->stool) & !stem->stool_hit; /* unpredictable: no branch depends on it */
     *place = stem->stool;
-    if (stem->along <= stems->start + 2 * stems->wood->reach && first && !(stem->stool & 1))
+    if (stem->along <= stems->start + 2 * stems->forest->reach && first && !(stem->stool & 1))
         ceduo_stems_mark_hit_behind(stems, stem->stool);
     return first;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "must.h"
+#include "oom.h"
 
 void (*ceduo_oom_hook)(void);
 

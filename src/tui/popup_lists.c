@@ -9,7 +9,7 @@
 #include "io/file.h"
 #include "popup.h"
 #include "scene/choices.h"
-#include "view/typed.h"
+#include "view/value_text.h"
 #include "view/words.h"
 
 /* ---- one stand ---- */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "seen.h"
+#include "observed_stops.h"
 
 #include <math.h>
 

@@ -57,9 +57,9 @@ static inline void draw_points(const struct stems *s, uint64_t event, struct poi
 
 static inline const struct belt_rates *rates_in(struct stems *s, int side, size_t belt)
 {
-    struct belt_rates *r = &s->rates[side == 0 ? belt : s->wood->belts - 1 - belt];
+    struct belt_rates *r = &s->rates[side == 0 ? belt : s->forest->belts - 1 - belt];
     if (r->b != s->b) {
-        const struct wood_belt *from = &s->wood->sides[side][belt];
+        const struct forest_belt *from = &s->forest->sides[side][belt];
         *r = (struct belt_rates){.b = s->b};
         for (size_t k = 0; k < from->strata_count; k++)
             r->rate[get_stream(&from->strata[k])] += from->strata[k].base_rate + from->strata[k].rate_per_b * s->b;
@@ -77,8 +77,8 @@ static inline void place_points(struct stems *s, int side, enum stem_stream stre
     size_t j = p->end_belt, first = j;
     unsigned i = 0;
     double remaining = gaps[0];
-    while (j < s->wood->belts) {
-        const struct wood_belt *belt = &s->wood->sides[side][j];
+    while (j < s->forest->belts) {
+        const struct forest_belt *belt = &s->forest->sides[side][j];
         const struct belt_rates *r = rates_in(s, side, j);
         double rate = r->rate[stream], metres = r->metres[stream];
         along = along > belt->from ? along : belt->from;
@@ -105,7 +105,7 @@ static inline void place_points(struct stems *s, int side, enum stem_stream stre
 }
 
 /* Place stools of one belt, from `first` to before `end`; some beyond `end` are overwritten, too. */
-static inline void place_stools(const struct stems *s, const struct wood_stools *t, struct points *p, unsigned first,
+static inline void place_stools(const struct stems *s, const struct forest_stools *t, struct points *p, unsigned first,
                                 unsigned end)
 {
     double width = 2 * t->reach + t->dbh_max + s->b;
@@ -138,7 +138,7 @@ static inline void draw_cohorts(const struct stems *s, int side, struct points *
     const uint64_t key = RANDOM_KEY(s->seed, s->number);
     unsigned limit = 0;
     for (unsigned i = 0; i < p->count; i++) {
-        const struct wood_stools *stools = s->wood->sides[side][p->belt[i]].stools;
+        const struct forest_stools *stools = s->forest->sides[side][p->belt[i]].stools;
         if (stools->cohorts > 1 && stools->n + 1 > limit)
             limit = stools->n + 1;
     }
@@ -162,7 +162,7 @@ static void fill_points(struct stems *s, int side, enum stem_stream stream)
     if (stream == STREAM_STOOLS) {
         for (unsigned i = 0, end; i < p->count; i = end) {
             end = find_belt_end(p, i);
-            place_stools(s, s->wood->sides[side][p->belt[i]].stools, p, i, end);
+            place_stools(s, s->forest->sides[side][p->belt[i]].stools, p, i, end);
         }
         draw_cohorts(s, side, p, event);
     }
@@ -175,7 +175,7 @@ static inline struct stool next_stool(struct stems *s, int side)
 {
     struct points *p = &s->side[side].streams[STREAM_STOOLS];
     unsigned k = p->next++;
-    const struct wood_stools *stools = s->wood->sides[side][p->belt[k]].stools;
+    const struct forest_stools *stools = s->forest->sides[side][p->belt[k]].stools;
     unsigned n = stools->n + (unsigned)p->extra[k];
     const double *ring = stools->ring[p->extra[k]];
     s->drawn += n;
@@ -203,9 +203,9 @@ static inline void place_shoot(const struct stool *t, unsigned i, double *along,
 static inline bool is_plain_stool(const struct stems *s, int side)
 {
     const struct points *p = &s->side[side].streams[STREAM_STOOLS];
-    const struct wood_stools *stools = s->wood->sides[side][p->belt[p->next]].stools;
+    const struct forest_stools *stools = s->forest->sides[side][p->belt[p->next]].stools;
     unsigned limit = stools->cohorts > 1 ? 4 * COHORT_GROUPS : PLAIN_SHOOTS_MAX;
-    return !stools->dbh_varies && stools->n + 1 < limit && (side == 1 || p->along[p->next] >= s->start + s->wood->reach);
+    return !stools->dbh_varies && stools->n + 1 < limit && (side == 1 || p->along[p->next] >= s->start + s->forest->reach);
 }
 
 #define ROW_SHOOTS 6 /* from this number of shoots on a stool is made on its own; affects only speed */
@@ -230,39 +230,39 @@ static inline void add_shoots(struct shoots *to, mask hittable, real along, real
     to->n += (unsigned)__builtin_popcount(lane_bits(hittable));
 }
 
-static inline uint64_t kind_number(const struct stems *s, const struct wood_kind *kind)
+static inline uint64_t kind_number(const struct stems *s, const struct forest_kind *kind)
 {
-    return (uint64_t)(kind - s->wood->kinds);
+    return (uint64_t)(kind - s->forest->kinds);
 }
 
 /* Append the shoots of one stool that the rock can hit. For stools of one kind with many shoots. */
 static inline void add_row(const struct stems *s, const struct stool *t, struct shoots *to)
 {
-    const struct wood_kind *kind = t->stools->kinds;
+    const struct forest_kind *kind = t->stools->kinds;
     double limit = (s->b + kind->dbh) / 2;
     for (unsigned i = 0; i < t->n; i += REAL_LANES) {
         real c = load(&t->ring[i]), q = load(&t->sines[i]);
         real along = t->along + (c * t->cosine - q * t->sine), y = t->centre + (c * t->sine + q * t->cosine);
-        mask hittable = at_least(splat(limit), vabs(y)) & greater_ints(splat_ints(t->n), count_from(i, 1));
+        mask hittable = greater_equal(splat(limit), vabs(y)) & greater_ints(splat_ints(t->n), count_from(i, 1));
         add_shoots(to, hittable, along, y, splat_ints(kind_number(s, kind)), splat_ints(t->event));
     }
 }
 
 /* Choose the kinds of shoot i of the stools from place k on. */
-static inline void choose_kinds(const struct points *p, const struct wood_stools *t, unsigned i, unsigned k, ints *kind,
+static inline void choose_kinds(const struct points *p, const struct forest_stools *t, unsigned i, unsigned k, ints *kind,
                                 real *dbh)
 {
     ints bits = load_ints(&p->cohorts[i / 4][i / 2 % 2][k]);
     real u = (to_real_small(bits >> i % 2 * 32 & UINT32_MAX) + 0.5) * 0x1p-32;
     for (size_t j = 0; j + 1 < t->cohorts; j++) {
-        mask beyond = at_least(u, splat(t->kinds[j].share_to));
+        mask beyond = greater_equal(u, splat(t->kinds[j].share_to));
         *kind = blend_ints(beyond, *kind + 1, *kind);
         *dbh = blend(beyond, splat(t->kinds[j + 1].dbh), *dbh);
     }
 }
 
 /* Append the shoots of the stools from place k to before p->next, at most one register of them, all in one belt. */
-static inline void add_columns(const struct stems *s, const struct points *p, unsigned k, const struct wood_stools *t,
+static inline void add_columns(const struct stems *s, const struct points *p, unsigned k, const struct forest_stools *t,
                                uint64_t event, struct shoots *to)
 {
     const double *ring = t->ring[0], *longer_ring = t->ring[t->extra_chance > 0];
@@ -277,7 +277,7 @@ static inline void add_columns(const struct stems *s, const struct points *p, un
         ints kind = splat_ints(kind_number(s, t->kinds));
         if (t->cohorts > 1)
             choose_kinds(p, t, i, k, &kind, &dbh);
-        mask hittable = at_least((s->b + dbh) / 2, vabs(y)) & greater_ints(n, splat_ints(i));
+        mask hittable = greater_equal((s->b + dbh) / 2, vabs(y)) & greater_ints(n, splat_ints(i));
         add_shoots(to, hittable, along, y, kind, events);
     }
 }
@@ -285,7 +285,7 @@ static inline void add_columns(const struct stems *s, const struct points *p, un
 #define STOOLS_MAX 8 /* stools made at once */
 
 /* Append the shoots of the next stools, all in one belt, until there are enough shoots if the rock can hit half of them. */
-static inline void make_columns(struct stems *s, int side, const struct wood_stools *t, struct shoots *to)
+static inline void make_columns(struct stems *s, int side, const struct forest_stools *t, struct shoots *to)
 {
     struct points *p = &s->side[side].streams[STREAM_STOOLS];
     unsigned k = p->next, count = find_belt_end(p, k) - k, per_stool = t->n + (t->extra_chance > 0);
@@ -332,7 +332,7 @@ NOINLINE void set_energies(const struct stems *s, struct shoots *t, const uint64
     double dbh[SHOOTS_MAX + REAL_LANES], share[SHOOTS_MAX + REAL_LANES];
     store(&t->y[t->n], splat(0)); /* padding after the last shoot */
     for (unsigned i = 0; i < t->n + REAL_LANES; i++)
-        dbh[i] = s->wood->kinds[i < t->n ? t->kind[i] : t->kind[0]].dbh;
+        dbh[i] = s->forest->kinds[i < t->n ? t->kind[i] : t->kind[0]].dbh;
     for (unsigned i = 0; i < t->n; i += REAL_LANES) {
         real power, exponent = DORREN_EXPONENT(2 * vabs(load(&t->y[i])) / (s->b + load(&dbh[i])));
         lanes_exp(&exponent, &power);
@@ -340,7 +340,7 @@ NOINLINE void set_energies(const struct stems *s, struct shoots *t, const uint64
         store(&share[i], 0.5 * (share_raw + vabs(share_raw)));
     }
     for (unsigned i = 0; i < t->n; i++) {
-        const struct wood_kind *kind = &s->wood->kinds[t->kind[i]];
+        const struct forest_kind *kind = &s->forest->kinds[t->kind[i]];
         waiting[rank[i]].energy = kind->by_eccentricity ? share[i] * kind->full_energy : kind->full_energy;
     }
 }
@@ -362,7 +362,7 @@ static void make_stools(struct stems *s, int i_side)
         t.stool_hit[t.n++] = stem->stool_hit;
     }
     do {
-        const struct wood_stools *stools = s->wood->sides[i_side][p->belt[p->next]].stools;
+        const struct forest_stools *stools = s->forest->sides[i_side][p->belt[p->next]].stools;
         if (stools->cohorts > 1 || stools->n < ROW_SHOOTS) {
             make_columns(s, i_side, stools, &t);
         } else {
@@ -374,7 +374,7 @@ static void make_stools(struct stems *s, int i_side)
     if (rank_shoots(&t, false, rank) != (uint64_t)t.n * (t.n - 1) / 2)
         rank_shoots(&t, true, rank);
     for (unsigned i = 0; i < t.n; i++) {
-        const struct wood_kind *kind = &s->wood->kinds[t.kind[i]];
+        const struct forest_kind *kind = &s->forest->kinds[t.kind[i]];
         side->queue[rank[i]] = (struct stem){.along = t.along[i],
                                              .energy = kind->full_energy,
                                              .height = get_hit_height(s, kind),
@@ -385,7 +385,7 @@ static void make_stools(struct stems *s, int i_side)
                                              .shoot = true,
                                              .stool_hit = t.stool_hit[i]};
     }
-    if (s->wood->by_eccentricity && t.n > 0)
+    if (s->forest->by_eccentricity && t.n > 0)
         set_energies(s, &t, rank, side->queue);
     side->first = 0;
     side->end = t.n;

@@ -3,7 +3,7 @@
 #define CEDUO_KERNEL_H
 
 #include "ceduo/run.h"
-#include "core/wood/stems_state.h"
+#include "core/forest/stems_state.h"
 
 /* Functions compiled for each kind of registers. */
 struct lanes_job;

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_QUESTION_H
-#define CEDUO_QUESTION_H
+#ifndef CEDUO_REQUEST_H
+#define CEDUO_REQUEST_H
 
 #include "blocks.h"
 #include "years.h"
 
 /* The only interface for runs: simulate a scene and read its results.
  *
- *     struct ceduo_request question = ceduo_request_default(&scene);
- *     struct ceduo_results answer;
- *     question.rocks = question.run.rocks_most = 10000;
- *     if (ceduo_simulate_request(&question, NULL, &answer) == CEDUO_OK)
- *         printf("%g\n", answer.result->options[0].wooded.arrivals[0].reach.mean);
- *     ceduo_results_release(&answer); */
+ *     struct ceduo_request request = ceduo_request_default(&scene);
+ *     struct ceduo_results results;
+ *     request.rocks = request.run.rocks_max = 10000;
+ *     if (ceduo_simulate_request(&request, NULL, &results) == CEDUO_OK)
+ *         printf("%g\n", results.result->options[0].wooded.arrivals[0].reach.mean);
+ *     ceduo_results_release(&results); */
 struct ceduo_request {
     struct ceduo_run_def run; /* the scene, and how its rocks are simulated; its option is ignored */
     uint64_t rocks;           /* per run, at most CEDUO_ROCKS_MAX; 0: only stands and index are computed */
@@ -25,7 +25,7 @@ struct ceduo_request {
     bool rotations;             /* also the whole rotation of each option: ceduo_window_compute() */
     uint64_t year_rocks;        /* rocks per year, at most `rocks`; 0: `rocks` */
     bool years_independent;     /* each year has independent rocks, see ceduo_years_simulate_independent(); not with blocks */
-    unsigned years_most;        /* > 0: at most this many years, evenly spread */
+    unsigned years_max;         /* > 0: at most this many years, evenly spread */
     uint64_t block_rocks; /* > 0: at most n blocks of each other size, to the last control, for at most the work of the runs */
 };
 #define CEDUO_ALL_OPTIONS SIZE_MAX
@@ -44,11 +44,11 @@ struct ceduo_results {
 };
 
 /* Simulate and read a scene. `pool` (may be NULL) keeps the runs between calls, see ceduo_pool_reuse_or_create(). *pool is NULL at first;
- * caller frees it. Everything that the scene points to must outlive answer and pool. Return CEDUO_CANCELLED, CEDUO_NO_MEMORY,
+ * caller frees it. Everything that the scene points to must outlive results and pool. Return CEDUO_CANCELLED, CEDUO_NO_MEMORY,
  * CEDUO_BAD_ARGUMENT (no such option, too many rocks or threads, an invalid window, a scene without options) or a status of
- * ceduo_scene_check(). The answer is empty then. Caller releases it in any case. */
-enum ceduo_status ceduo_simulate_request(const struct ceduo_request *question, struct ceduo_pool **pool,
-                                         struct ceduo_results *answer);
-void ceduo_results_release(struct ceduo_results *answer);
+ * ceduo_scene_check(). The results are empty then. Caller releases them in any case. */
+enum ceduo_status ceduo_simulate_request(const struct ceduo_request *request, struct ceduo_pool **pool,
+                                         struct ceduo_results *results);
+void ceduo_results_release(struct ceduo_results *results);
 
 #endif

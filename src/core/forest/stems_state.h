@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "wood.h"
+#include "forest.h"
 
 /* State of the stems in the path of one rock, for stems.c and stems_fill.h. */
 
@@ -14,7 +14,7 @@ struct stem {
     double energy;  /* J that it takes from this rock, if the rock has as much */
     double height;  /* m, of its kind */
     uint64_t stool; /* number of the stool or tree; the lowest bit is the side of drawing */
-    const struct wood_kind *kind;
+    const struct forest_kind *kind;
     double y;   /* m: offset from the centre line of the strip */
     double dbh; /* m; NaN: a log */
     bool shoot;
@@ -66,7 +66,7 @@ struct stems_side {
 /* The next stool of a stream: its place, and its ring. */
 struct stool {
     double along, centre, sine, cosine;
-    const struct wood_stools *stools;
+    const struct forest_stools *stools;
     const double *ring, *sines; /* cosines and sines of the ring */
     unsigned n;
     uint64_t event;
@@ -78,12 +78,12 @@ struct belt_rates {
 };
 
 struct stems {
-    const struct wood *wood;
-    const struct kernel *kernel; /* core/wood/kernel.h */
+    const struct forest *forest;
+    const struct kernel *kernel; /* core/forest/kernel.h */
     uint64_t seed, number;       /* of the rock */
     double b;                    /* m: mean diameter of the rock */
     double start;                /* x of the release */
-    struct belt_rates *rates;    /* of the belts of wood->sides[0] */
+    struct belt_rates *rates;    /* of the belts of forest->sides[0] */
     struct stems_side side[2];
     bool behind_ready;
     /* hash table of hit stools, by the lowest bits of their numbers; it is much larger than the number of stools in reach */
@@ -97,7 +97,7 @@ struct stems {
 
 /* Return the maximum clearance of a rock that hits a stem of this kind: the height of the stem, or the clearance at which the
  * rock's centre is at hit_below. */
-static inline double get_hit_height(const struct stems *s, const struct wood_kind *kind)
+static inline double get_hit_height(const struct stems *s, const struct forest_kind *kind)
 {
     double below = kind->hit_below - 0.5 * s->b;
     return kind->height < below ? kind->height : below;
@@ -108,7 +108,7 @@ static inline struct points *get_points(struct stems_side *side, enum stem_strea
     return stream == STREAM_GROUPS ? side->groups : &side->streams[stream];
 }
 
-static inline enum stem_stream get_stream(const struct wood_stratum *stratum)
+static inline enum stem_stream get_stream(const struct forest_stratum *stratum)
 {
     return !stratum->kind ? STREAM_STOOLS : stratum->group > 0 ? STREAM_GROUPS : STREAM_SINGLE;
 }

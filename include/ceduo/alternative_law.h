@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_OTHER_H
-#define CEDUO_OTHER_H
+#ifndef CEDUO_ALTERNATIVE_LAW_H
+#define CEDUO_ALTERNATIVE_LAW_H
 
 #include "assess.h"
 
@@ -23,14 +23,15 @@ struct ceduo_alternative_energy {
 /* Return the other law of an option: brauner if all its stems follow dorren, otherwise dorren. */
 enum ceduo_energy_model ceduo_alternative_law(const struct ceduo_option *option);
 
-/* Copy a scene with the other law in every stand. `other` owns its belts and shares all else with `scene`. False without
- * memory. Caller releases `other` in any case. */
-bool ceduo_alternative_scene(const struct ceduo_scene *scene, struct ceduo_scene *other);
-void ceduo_alternative_scene_release(struct ceduo_scene *other);
+/* Copy a scene with the other law in every stand. `alternative` owns its belts and shares all else with `scene`. False without
+ * memory. Caller releases `alternative` in any case. */
+bool ceduo_alternative_scene(const struct ceduo_scene *scene, struct ceduo_scene *alternative);
+void ceduo_alternative_scene_release(struct ceduo_scene *alternative);
 
 /* Read a control from the run of an option under its other law. `first` is this run of the first option. Both may be NULL.
  * Return CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_alternative_read(const struct ceduo_option *option, const struct ceduo_run *run,
-                                         const struct ceduo_run *first, size_t control, struct ceduo_alternative_energy *other);
+                                         const struct ceduo_run *first, size_t control,
+                                         struct ceduo_alternative_energy *alternative);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_TYPED_H
-#define CEDUO_TYPED_H
+#ifndef CEDUO_VALUE_TEXT_H
+#define CEDUO_VALUE_TEXT_H
 
 #include "scene/schema.h"
 
@@ -16,7 +16,7 @@ void ceduo_input_parse_value(const struct field *field, const char *typed, struc
 
 /* True if the typed number is in the range of a field; otherwise set the reason, in the display unit. Text that is not a
  * number passes. */
-bool ceduo_input_is_in_range(const struct field *field, const char *typed, struct text *why);
+bool ceduo_input_is_in_range(const struct field *field, const char *typed, struct text *reason);
 
 /* True if the typed value is so unusual that the user must confirm; set the question. */
 bool ceduo_input_is_unusual(const struct field *field, const char *typed, struct text *question);

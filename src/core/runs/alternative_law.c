@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/other.h"
+#include "ceduo/alternative_law.h"
 
 #include <stdlib.h>
 
@@ -13,20 +13,20 @@ enum ceduo_energy_model ceduo_alternative_law(const struct ceduo_option *option)
     return CEDUO_BRAUNER;
 }
 
-bool ceduo_alternative_scene(const struct ceduo_scene *scene, struct ceduo_scene *other)
+bool ceduo_alternative_scene(const struct ceduo_scene *scene, struct ceduo_scene *alternative)
 {
     size_t n = scene->options_count, belts = 0;
     for (size_t i = 0; i < n; i++)
         belts += scene->options[i].belts_count;
-    *other = *scene;
-    other->options = calloc(1, (n + 1) * sizeof *other->options + belts * sizeof(struct ceduo_belt));
-    if (!other->options)
+    *alternative = *scene;
+    alternative->options = calloc(1, (n + 1) * sizeof *alternative->options + belts * sizeof(struct ceduo_belt));
+    if (!alternative->options)
         return false;
-    struct ceduo_belt *to = (void *)(other->options + n + 1); /* after the options */
+    struct ceduo_belt *to = (void *)(alternative->options + n + 1); /* after the options */
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_option *option = &scene->options[i];
-        other->options[i] = *option;
-        other->options[i].belts = to;
+        alternative->options[i] = *option;
+        alternative->options[i].belts = to;
         for (size_t k = 0; k < option->belts_count; k++) {
             *to = option->belts[k];
             to++->stand.energy = ceduo_alternative_law(option);
@@ -35,21 +35,22 @@ bool ceduo_alternative_scene(const struct ceduo_scene *scene, struct ceduo_scene
     return true;
 }
 
-void ceduo_alternative_scene_release(struct ceduo_scene *other)
+void ceduo_alternative_scene_release(struct ceduo_scene *alternative)
 {
-    free(other->options);
-    *other = (struct ceduo_scene){0};
+    free(alternative->options);
+    *alternative = (struct ceduo_scene){0};
 }
 
 enum ceduo_status ceduo_alternative_read(const struct ceduo_option *option, const struct ceduo_run *run,
-                                         const struct ceduo_run *first, size_t control, struct ceduo_alternative_energy *other)
+                                         const struct ceduo_run *first, size_t control,
+                                         struct ceduo_alternative_energy *alternative)
 {
-    *other =
+    *alternative =
         (struct ceduo_alternative_energy){.known = run && ceduo_run_rocks(run) > 0, .model = ceduo_alternative_law(option)};
     for (size_t i = 0; i < option->belts_count; i++)
-        other->stems |= !ceduo_stand_is_bare(&option->belts[i].stand);
-    if (!other->known)
+        alternative->stems |= !ceduo_stand_is_bare(&option->belts[i].stand);
+    if (!alternative->known)
         return CEDUO_OK;
-    other->to_first = ceduo_run_difference(run, first, control);
-    return ceduo_run_arrivals(run, control, &other->arrivals);
+    alternative->to_first = ceduo_run_difference(run, first, control);
+    return ceduo_run_arrivals(run, control, &alternative->arrivals);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_SURE_H
-#define CEDUO_SURE_H
+#ifndef CEDUO_RELIABILITY_H
+#define CEDUO_RELIABILITY_H
 
 #include "ceduo/uncertainty.h"
 #include "goal.h"

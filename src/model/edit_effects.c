@@ -253,7 +253,7 @@ static void keep_one_of_all(struct follow *f)
     const char *dot = strrchr(f->path, '.'), *key = dot ? dot + 1 : f->path;
     const char *map = ceduo_arena_copy(f->arena, f->path, dot ? (size_t)(dot - f->path) : 0);
     const struct field *holder = ceduo_schema_row(map), *field = ceduo_schema_at(f->path);
-    const char *alternative = holder && holder->object && field ? ceduo_schema_other(holder->object, key) : NULL;
+    const char *alternative = holder && holder->object && field ? ceduo_schema_alternative(holder->object, key) : NULL;
     if (alternative && !ceduo_schema_unit(holder->object, field))
         drop_entry(f, map, alternative);
     for (size_t i = 0; strcmp(map, "rock") == 0 && i < 3 && rock_keys[sphere][i]; i++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/question.h"
+#include "ceduo/request.h"
 
 #include <stdlib.h>
 
@@ -33,7 +33,7 @@ static enum ceduo_status simulate_years(const struct ceduo_request *q, struct ce
         struct ceduo_window window = rotation             ? ceduo_window_compute(option)
                                      : q->window.step > 0 ? q->window
                                                           : ceduo_scene_window(scene);
-        window = q->years_most > 0 ? ceduo_window_thinned(window, q->years_most) : window;
+        window = q->years_max > 0 ? ceduo_window_thinned(window, q->years_max) : window;
         status = ceduo_years_create(scene, option, window, &years[i]);
         if (status == CEDUO_OK) /* a constant window is year 0, today: its run exists */
             status = separate && window.kind != CEDUO_WINDOW_CONSTANT
@@ -86,7 +86,7 @@ enum ceduo_status ceduo_simulate_request(const struct ceduo_request *q, struct c
     struct ceduo_pool *own_pool = NULL, **pool = shared_pool ? shared_pool : &own_pool;
     struct ceduo_run *run;
     struct ceduo_run_def def = q->run;
-    def.rocks_most = def.rocks_most < q->rocks ? q->rocks : def.rocks_most;
+    def.rocks_max = def.rocks_max < q->rocks ? q->rocks : def.rocks_max;
     status = ceduo_pool_reuse_or_create(&def, pool);
     if (status == CEDUO_OK && q->only != CEDUO_ALL_OPTIONS) {
         if (q->rocks > 0)
