@@ -121,7 +121,7 @@ struct ceduo_measure ceduo_measure_fence(enum ceduo_fence_share what, const stru
         const char *name, *phrase;
     } names[CEDUO_FENCE_SHARES] = {[CEDUO_FENCE_ABOVE] = {N_("over the fence"), N_("pass above the fence")},
                                    [CEDUO_FENCE_THROUGH] = {N_("through it"), N_("have more energy than it holds")},
-                                   [CEDUO_FENCE_BOTH] = {N_("both"), N_("both above and too much energy")},
+                                   [CEDUO_FENCE_BOTH] = {N_("over and through"), N_("both above and too much energy")},
                                    [CEDUO_FENCE_DEFEATED] = {N_("fence beaten"), N_("defeat the fence")},
                                    [CEDUO_FENCE_WORN] = {N_("wear it"), N_("held, with over a third of its energy")}};
     const struct ceduo_fence_arrivals *f = ceduo_fence_find(a);
