@@ -29,8 +29,8 @@ struct ceduo_fence_grid {
 struct ceduo_fence_choice {
     unsigned height; /* m */
     int class_index; /* CEDUO_FENCE_CLASSES: no class is enough */
-    double energy;   /* J: of the class; of the last class the largest energy of a rock; NaN: no class is enough */
-    double defeated; /* share of the released; of the last class if no class is enough */
+    double energy;   /* J: energy of the class, or for the last class the largest energy of a rock; NaN: no class is enough */
+    double defeated; /* share of the released rocks; for the last class if no class is enough */
     bool decided;    /* the sampling error does not change the class */
 };
 
@@ -66,7 +66,7 @@ const struct ceduo_fence_choice *ceduo_fence_smallest(const struct ceduo_fence_c
 /* Partial factors of UNI 11211-4. */
 struct ceduo_fence_factors {
     double survey, model, blocks; /* 1.02 or 1.10 */
-    double energy;                /* of the energy of the fence; NaN: not given */
+    double energy;                /* factor of the energy of the fence; NaN: not given */
 };
 
 /* Design values of a fence. */
@@ -82,7 +82,7 @@ struct ceduo_fence_design ceduo_fence_design(const struct ceduo_fence_load *load
 /* The years ahead at a fence. */
 struct ceduo_fence_years {
     size_t years;                /* simulated; 0: unknown */
-    struct ceduo_estimate mean;  /* of the defeated share; the interval is an upper bound */
+    struct ceduo_estimate mean;  /* defeated share; the interval is an upper bound */
     struct ceduo_estimate worst; /* defeated share of the worst year */
     unsigned worst_year;
     size_t failing;                                        /* years in which more than the limit defeat the fence */

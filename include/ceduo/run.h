@@ -104,7 +104,7 @@ struct ceduo_estimate ceduo_run_energy(const struct ceduo_run *run, size_t contr
 /* Shares and means for `groups` consecutive groups of nearly equal size. Cheap, too. Requires at least `groups` rocks. */
 struct ceduo_group_means {
     double reach_probability, exceed_probability; /* of the released; exceed: NaN without an accepted energy */
-    double defeated_probability;                  /* of the released; NaN without a fence */
+    double defeated_probability;                  /* share of the released; NaN without a fence */
     double energy;                                /* mean of the rocks that reach, J; NaN if none does */
     double energy_per_released;                   /* J */
 };

@@ -160,7 +160,7 @@ enum ceduo_quality {
 /* Survey qualities for the design values; -1: none requested. */
 struct ceduo_design_values {
     int survey, blocks;  /* enum ceduo_quality */
-    double fence_factor; /* of the energy of a fence, >= 1; NaN or 0: not given */
+    double fence_factor; /* factor of the energy of a fence, >= 1; NaN or 0: not given */
 };
 
 /* True if design values are requested. */

@@ -456,18 +456,18 @@ static const struct ceduo_figure design_factors[] = {
     END};
 
 static const struct ceduo_figure worst_designs[] = {
-    {"arrivals", "", "of the rocks that arrive", IN(designs, of[CEDUO_DESIGN_WORST_ARRIVING], design_values)},
-    {"system", "", "of forest and fence as one system", IN(designs, of[CEDUO_DESIGN_WORST_SYSTEM], design_values)},
+    {"arrivals", "", "of the rocks that arrive", IN(designs, values[CEDUO_DESIGN_WORST_ARRIVING], design_values)},
+    {"system", "", "of forest and fence as one system", IN(designs, values[CEDUO_DESIGN_WORST_SYSTEM], design_values)},
     END};
 
 static const struct ceduo_figure designs[] = {
     {"factors", "", "partial factors of UNI 11211-4", IN(designs, factors, design_factors)},
-    {"bare", "", "of the rocks that arrive without forest", IN(designs, of[CEDUO_DESIGN_BARE], design_values)},
-    {"arrivals", "", "of the rocks that arrive with forest", IN(designs, of[CEDUO_DESIGN_ARRIVING], design_values)},
+    {"bare", "", "of the rocks that arrive without forest", IN(designs, values[CEDUO_DESIGN_BARE], design_values)},
+    {"arrivals", "", "of the rocks that arrive with forest", IN(designs, values[CEDUO_DESIGN_ARRIVING], design_values)},
     {"system", "",
      "of forest and fence as one system: percentiles of the rocks that arrive without forest, where one that the forest stops "
      "counts as 0",
-     IN(designs, of[CEDUO_DESIGN_SYSTEM], design_values)},
+     IN(designs, values[CEDUO_DESIGN_SYSTEM], design_values)},
     {"worst", "", "the largest of the years ahead", .table = worst_designs},
     END};
 

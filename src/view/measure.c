@@ -157,7 +157,7 @@ bool ceduo_designs_compute(const struct ceduo_report *report, size_t option, siz
         [CEDUO_DESIGN_WORST_ARRIVING] = years ? &years->arriving : &none.arriving,
         [CEDUO_DESIGN_WORST_SYSTEM] = years ? &years->system : &none.system};
     for (size_t i = 0; i < CEDUO_DESIGN_KINDS; i++)
-        to->of[i] = ceduo_fence_design(loads[i], &to->factors);
+        to->values[i] = ceduo_fence_design(loads[i], &to->factors);
     return ceduo_design_is_requested(d);
 }
 

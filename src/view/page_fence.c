@@ -186,7 +186,7 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
     if (!isnan(d.factors.energy))
         ceduo_text_format(&ceduo_page_head(page)->text, _("class at factor %s"), LOCALIZED(d.factors.energy));
     for (enum ceduo_design_kind i = 0; i < CEDUO_DESIGN_KINDS; i++) {
-        const struct ceduo_fence_design *v = &d.of[i];
+        const struct ceduo_fence_design *v = &d.values[i];
         if (isnan(v->energy))
             continue;
         ceduo_page_cell_format(page, "%s", _(names[i]));
@@ -200,7 +200,7 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
             add_class(page, v, v->class_factored);
     }
     ceduo_page_trim(page);
-    if (d.of[CEDUO_DESIGN_SYSTEM].energy == 0)
+    if (d.values[CEDUO_DESIGN_SYSTEM].energy == 0)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("As one system no fence is needed by this rule; %s of 1000 still arrive."),
                         MEASURE_VALUE(ceduo_measure_arriving(s.wooded)));
     ceduo_page_para(

@@ -255,8 +255,8 @@ enum ceduo_design_kind {
 };
 struct ceduo_designs {
     struct ceduo_fence_factors factors;
-    bool calibrated;                                  /* the model is fitted to observations */
-    struct ceduo_fence_design of[CEDUO_DESIGN_KINDS]; /* NaN and -1: unknown */
+    bool calibrated;                                      /* the model is fitted to observations */
+    struct ceduo_fence_design values[CEDUO_DESIGN_KINDS]; /* NaN and -1: unknown */
 };
 /* Compute the design values at a control. `wooded` may be NULL. False if the scene does not request them. */
 bool ceduo_designs_compute(const struct ceduo_report *report, size_t option, size_t control,

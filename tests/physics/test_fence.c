@@ -157,8 +157,8 @@ TEST(what_equals_the_limit_is_held)
 
 /* ---- percentiles and design ---- */
 
-/* Masses from 0 to 2 t in one trajectory: the energy is uniform. Of the rocks that arrive without forest the forest lets 80 or
- * 40 of 1000 through. */
+/* Masses from 0 to 2 t in one trajectory: the energy is uniform. The forest lets 80 or 40 of 1000 rocks through that arrive
+ * without it. */
 TEST(percentiles_of_the_arrivals_and_of_the_system)
 {
     line_scene_drop(&scene, 1, NAN);

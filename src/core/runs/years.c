@@ -389,12 +389,12 @@ struct ceduo_years_summary ceduo_years_summarize(const struct ceduo_years *years
     return s;
 }
 
-static void widen_load(struct ceduo_fence_load *load, const struct ceduo_fence_load *by)
+static void widen_load(struct ceduo_fence_load *load, const struct ceduo_fence_load *other_load)
 {
-    load->speed = fmax(load->speed, by->speed);
-    load->energy = fmax(load->energy, by->energy);
-    load->top = fmax(load->top, by->top);
-    load->middle = fmax(load->middle, by->middle);
+    load->speed = fmax(load->speed, other_load->speed);
+    load->energy = fmax(load->energy, other_load->energy);
+    load->top = fmax(load->top, other_load->top);
+    load->middle = fmax(load->middle, other_load->middle);
 }
 
 struct ceduo_fence_years ceduo_years_fence(const struct ceduo_years *years, size_t control, const struct ceduo_arrivals *today)
