@@ -83,7 +83,7 @@ def test_years():
 
 def test_design():
     """Design values of the rocks that arrive and of the system; class and factor; the bare slope has one kind"""
-    control = control_of(*FEW, SCENE)
+    control = control_of(*FEW, "-s", "design.gamma_e=1.2", SCENE)
     design = control["design"]
     expect_equal(design["factors"], {"survey": 1.02, "model": 1.1, "blocks": 1.1, "gamma_e": 1.2})
     expect_near(design["arrivals"]["energy_kJ"], control["wooded"]["translation_kJ"]["p95"] * (1.02 * 1.1) ** 2 * 1.1, 1e-9)
@@ -152,8 +152,9 @@ def test_tables():
     with Folder() as f:
         path = f.write("s.yaml", fall({"energy_kJ": 100, "height_m": 3}))
         rows = f.write("rows.csv", "controls[0].fence.energy_kJ,controls[0].fence.height_m\n100,3\n250,6\n104,10\n")
-        out = good("--batch", "-f", "csv", "--columns=bare.fence.defeated,bare.fence.through", f"--each={rows}", path).out
-    found = [[float(r["bare.fence.defeated"]), float(r["bare.fence.through"])] for r in csv.DictReader(io.StringIO(out))]
+        done = ceduo("--batch", "-f", "csv", "--columns=bare.fence.defeated,bare.fence.through", f"--each={rows}", path)
+        expect_equal(done.status, 0, done)
+    found = [[float(r["bare.fence.defeated"]), float(r["bare.fence.through"])] for r in csv.DictReader(io.StringIO(done.out))]
     expect_near(found[0][0], 0.9654, 0.01)
     expect_equal(found[1], [0, 0])
     expect_equal(found[2][0], found[2][1])
