@@ -75,9 +75,14 @@ def test_years():
     expect_equal(means, [y["controls"][0]["wooded"]["fence"]["defeated"] for y in listed])
     expect_near(window["per_year"], sum(e["per_year"] for e in each) / 6, 1e-12)
     expect_equal(window["failing_years"], sum(m > 0.05 for m in means))
-    for i in range(7):  # each year counts today, too
-        classes = [9 if e["enough"][i]["class"] is None else e["enough"][i]["class"] for e in [*each, window]]
+    today = control_of(*FEW, SCENE)["wooded"]["fence"]
+    of_years = [y["controls"][0]["wooded"]["fence"] for y in listed]
+    for i in range(7):  # today counts, too
+        classes = [9 if f["enough"][i]["class"] is None else f["enough"][i]["class"] for f in [today, *of_years, window]]
         expect_equal(classes[-1], max(classes[:-1]), f"height {i + 2}: {classes}")
+        if classes[-1] < 9:
+            defeated = [f["enough"][i]["defeated"] for f, c in zip([today, *of_years], classes) if c == classes[-1]]
+            expect(max(defeated) <= window["enough"][i]["defeated"] <= 0.05, f"height {i + 2}: {defeated}")
     expect_equal([y["controls"][0]["fence"]["window"] for y in listed], [None] * 6)
 
 
