@@ -49,7 +49,7 @@ struct ceduo_fence_arrivals {
     struct ceduo_fence_choice enough[CEDUO_FENCE_HEIGHTS];
     double per_year, in_life; /* rocks that defeat the fence: per year; probability in its life; NaN: no blocks */
     /* `arriving`: rocks that arrive. `system`: rocks that arrive without forest; a rock that the forest stops counts as 0. NaN:
-     * neither fence nor design values are requested, or no rock arrives. */
+     * design values are not requested, or no rock arrives. */
     struct ceduo_fence_load arriving, system;
 };
 

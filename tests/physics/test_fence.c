@@ -27,7 +27,7 @@ static void throw(double fall)
     scene.scene.release.vx.kind = CEDUO_UNIFORM;
     scene.control = (struct ceduo_control){.x = 10, .x_given = 10, .accepted = NAN, .measured_speed = NAN};
     scene.scene.controls_count = 1;
-    scene.scene.design = (struct ceduo_design_values){-1, -1, NAN};
+    scene.scene.design = (struct ceduo_design_values){CEDUO_SURVEY_GOOD, CEDUO_SURVEY_GOOD, NAN};
 }
 
 static struct ceduo_fence_arrivals read_fence(const struct ceduo_run *run, double energy, double height,
@@ -135,6 +135,7 @@ TEST(bounds)
     const struct ceduo_fence_arrivals wide = read_fence(fewer, 100e3, 3, NULL), narrow = read_fence(run, 100e3, 3, NULL);
     EXPECT(narrow.above.hi - narrow.above.lo, <, (wide.above.hi - wide.above.lo) / 3);
     struct ceduo_fence_arrivals none;
+    scene.scene.design = (struct ceduo_design_values){-1, -1, NAN};
     assert_int_equal(ceduo_run_fence(run, &scene.scene, 0, NULL, &none), CEDUO_OK);
     EXPECT(isnan(none.defeated.mean) && isnan(none.arriving.energy), ==, true);
     assert_int_equal(ceduo_run_fence(run, &scene.scene, 1, NULL, &none), CEDUO_BAD_ARGUMENT);

@@ -161,12 +161,13 @@ enum ceduo_status ceduo_run_fence(const struct ceduo_run *run, const struct cedu
     *f = ceduo_fence_none();
     if (control >= run->controls || control >= scene->controls_count)
         return CEDUO_BAD_ARGUMENT;
-    bool stands = ceduo_fence_stands(&scene->controls[control].fence);
-    if (run->rocks == 0 || (!stands && !ceduo_design_is_requested(&scene->design)))
+    bool stands = ceduo_fence_stands(&scene->controls[control].fence), designed = ceduo_design_is_requested(&scene->design);
+    if (run->rocks == 0 || (!stands && !designed))
         return CEDUO_OK;
     struct passing *p = malloc(((size_t)run->rocks + 1) * sizeof *p);
-    struct weighted *scratch = malloc(((size_t)run->rocks + 2) * sizeof *scratch);
-    if (p && scratch) {
+    struct weighted *scratch = designed ? malloc(((size_t)run->rocks + 2) * sizeof *scratch) : NULL;
+    bool good = p && (scratch || !designed);
+    if (good) {
         const struct samples samples = find_samples(run, control, scene->controls[control].x);
         double arrive = 0, all = 0;
         size_t n = 0;
@@ -177,9 +178,9 @@ enum ceduo_status ceduo_run_fence(const struct ceduo_run *run, const struct cedu
         }
         if (stands)
             read_shares(run, scene, control, p, n, f);
-        read_loads(p, n, bare && !isnan(bare->reach.mean) ? fmax(0, all * bare->reach.mean - arrive) : 0, scratch, f);
+        if (designed)
+            read_loads(p, n, bare && !isnan(bare->reach.mean) ? fmax(0, all * bare->reach.mean - arrive) : 0, scratch, f);
     }
-    bool good = p && scratch;
     free(p);
     free(scratch);
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
