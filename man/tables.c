@@ -85,7 +85,7 @@ static void print_range(FILE *out, const struct range *r)
     print_escaped(out, r->source);
     fputs(").\n", out);
     if (r->measured) {
-        fputs("What measures it: ", out);
+        fputs("Measured by: ", out);
         print_escaped(out, r->measured);
         fputs(".\n", out);
     }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Another kind of processor: tests of physics, compiled for 64-bit ARM and run by qemu, and the bits of rocks, which are those of
-# this machine. Debian's libraries for ARM are unpacked below build and not installed.
+# Another processor architecture: compiles the tests of physics for 64-bit ARM, runs them with qemu, and compares the bits of rocks
+# with those of this machine. Debian's libraries for ARM are unpacked below build and not installed.
 set -e
 cd "$(dirname "$0")/.."
 arm=$PWD/build/debian-arm
@@ -20,7 +20,7 @@ tests='physics/test_golden physics/test_lanes physics/test_years physics/test_el
 make --no-print-directory -j"$(nproc)" VARIANT=arm CC=aarch64-linux-gnu-gcc CFLAGS=-O2 LDFLAGS="$link" $(printf 'build/arm/tests/%s ' $tests)
 for test in $tests; do qemu-aarch64 -L "$arm/system" "build/arm/tests/$test"; done
 
-bits() { # of which build, compiler...
+bits() { # build compiler...
     build=build/$1
     shift
     "$@" -std=c17 -Iinclude -Isrc -Itests -o $build/bits tests/physics/bits.c tests/physics/paper_site.c $build/libceduo.a \

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Line and branch coverage of the rooms of PARTS: tests/coverage.py BUILD
+"""Line and branch coverage of the rooms in PARTS: tests/coverage.py BUILD
 
 BUILD is the folder of a build with clang's counters, after its tests. A branch is one outcome of a condition in the source, or
 a case of a switch; a macro is counted at its definition. An untaken branch needs a comment on its line or the one before, /*

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The packages of `make deb`: lintian finds nothing, they are installed, used and purged, and nothing is left. Status 77: it
-# cannot be done here, and why.
+# Checks the packages of `make deb`: lintian reports nothing; they are installed, used and purged, and leave nothing. Status 77:
+# not possible here; prints the reason.
 set -eu
 
 skip() {
@@ -28,7 +28,7 @@ DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "./
     { cat "$work/apt.log"; fail "apt-get install"; }
 dpkg -L ceduo libceduo-dev libceduo0 | while read -r path; do [ -d "$path" ] || echo "$path"; done >"$work/files"
 
-# used by somebody who has no sources
+# used without the sources
 cd "$work"
 export HOME="$work" XDG_DATA_HOME="$work/share" LC_ALL=C.UTF-8
 program=/usr/bin/ceduo

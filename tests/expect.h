@@ -52,7 +52,7 @@ static inline struct shown shown_unsigned(unsigned long long value)
             fail_msg("%s is %s, wanted %s %s, which is %s", #left, SHOWN(left), #op, #right, SHOWN(right));                    \
     } while (0)
 
-/* |left - right| <= most; false if either is NaN. */
+/* |left - right| <= max; false if either is NaN. */
 #define EXPECT_NEAR(left, right, max)                                                                                          \
     do {                                                                                                                       \
         if (!(fabs((left) - (right)) <= (max)))                                                                                \

@@ -72,7 +72,7 @@ static inline int folder_set_up_profiles(void **state)
 }
 
 /* Write a file inside it, without waiting for the disk. */
-static inline void put(const char *name, const char *text)
+static inline void folder_write(const char *name, const char *text)
 {
     char path[256];
     in_folder(path, name);

@@ -317,7 +317,7 @@ def lists():
 
 # ---- input, valid and invalid ----
 
-def both(name, scene, files, **more):
+def check_and_run(name, scene, files, **more):
     return Case(name, ["--check", scene], ["-b", *FEW, scene], files=files, **more)
 
 
@@ -328,28 +328,28 @@ def standard_input():
     yield Case("input/twice", ["-b", "-", "-"], stdin=SMALL.encode())
     for name, text in (("nothing", b""), ("bytes", bytes(range(256))), ("cut", SMALL[:300].encode()),
                        ("CRLF", SMALL.replace("\n", "\r\n").encode())):
-        yield both(f"input/{name}", "-", {}, stdin=text)
+        yield check_and_run(f"input/{name}", "-", {}, stdin=text)
     for name in SCENES:
         yield Case(f"input/check {name}", ["--check", name])
     yield Case("input/check all", ["--check", *SCENES, "none", "faults.yaml", "paper-sit"],
                files={"faults.yaml": (SEEDS / "scene/faults.yaml").read_text()})
     for path in sorted((SEEDS / "scene").iterdir()):
-        yield both(f"input/seed {path.name}", "s.yaml", {"s.yaml": path.read_text()})
+        yield check_and_run(f"input/seed {path.name}", "s.yaml", {"s.yaml": path.read_text()})
     for path in sorted((SEEDS / "csv").iterdir()):
-        yield both(f"input/seed {path.name}", "s.yaml", {"s.yaml": CSV_SLOPE, "line.csv": path.read_bytes()})
+        yield check_and_run(f"input/seed {path.name}", "s.yaml", {"s.yaml": CSV_SLOPE, "line.csv": path.read_bytes()})
 
 
 def faults():
     """Return the bad input of the tests."""
     for i, (file, old, new, *words) in enumerate(test_input.CASES):
-        yield both(f"fault/{i} {words[0]}", "scene.yaml", test_input.mutated(file, old, new)[0])
+        yield check_and_run(f"fault/{i} {words[0]}", "scene.yaml", test_input.mutated(file, old, new)[0])
     for row, case in test_errors.CASES.items():
         name = f"error/{row}"
         if isinstance(case, test_errors.File):
-            yield both(name, "scene.yaml", test_input.mutated(case.name, case.old, case.new)[0])
+            yield check_and_run(name, "scene.yaml", test_input.mutated(case.name, case.old, case.new)[0])
         elif isinstance(case, test_errors.Text):
             text = case.text.replace("@@", "") if isinstance(case.text, str) else case.text
-            yield both(name, "s.yaml", {"s.yaml": text, **case.more})
+            yield check_and_run(name, "s.yaml", {"s.yaml": text, **case.more})
         elif isinstance(case, test_errors.Words):
             yield Case(name, ["scene.yaml" if w == "@" else w for w in case.words], files=test_input.FILES)
         elif isinstance(case, test_errors.Set):
@@ -414,7 +414,7 @@ def blanked(data):
 
 # ---- showing ----
 
-def lines_of(data):
+def printable_lines(data):
     """Return text in printable lines: JSON and other long lines are split."""
     for line in data.decode("utf-8", "backslashreplace").removesuffix("\n").split("\n"):
         for part in re.sub(r",\s*", ",\n", line).split("\n") if line.startswith('{"') or len(line) > WIDE else [line]:
@@ -425,7 +425,7 @@ def difference(name, before, now):
     """Return lines that show the difference of two streams or files; None is a missing one."""
     if before is None or now is None:
         return [f"{name}: only {'now' if before is None else 'before'}"]
-    both = [list(lines_of(data)) for data in (before, now)]
+    both = [list(printable_lines(data)) for data in (before, now)]
     same = next((i for i, (a, b) in enumerate(zip(*both)) if a != b), min(map(len, both)))
     both = [lines[:same + LOOKED] for lines in both]
     found = list(difflib.unified_diff(*both, f"{name} before", f"{name} now", lineterm=""))

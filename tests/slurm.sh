@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs a command beside a Slurm of one node, started for it alone on loopback: tests/slurm.sh COMMAND...
-# Daemons, keys, ports and files are its own; all is gone at the end. Status 77 and a reason where none can be started.
+# Runs a command with a Slurm of one node, started for this command on loopback: tests/slurm.sh COMMAND...
+# It has its own daemons, keys, ports and files, all removed at the end. Status 77 and the reason if Slurm cannot be started.
 set -eu
 
 cannot() {
@@ -15,12 +15,12 @@ for name in munged slurmctld slurmd sbatch scontrol; do
 done
 
 place=$(mktemp -d)
-chmod 755 "$place" # munged's socket is to be reached
+chmod 755 "$place" # munged's socket must be reachable
 end() {
     for name in slurmd slurmctld munged; do
         [ ! -s "$place/$name.pid" ] || kill "$(cat "$place/$name.pid")" 2>/dev/null || :
     done
-    sleep 1 # they write their state
+    sleep 1 # the daemons write their state
     rm -rf "$place"
 }
 trap end EXIT
@@ -33,7 +33,7 @@ mkdir -m 700 "$place/keys" "$place/state" "$place/spool"
 head -c 128 /dev/urandom >"$place/keys/munge"
 chmod 600 "$place/keys/munge"
 
-# The node says that it has what a task asks for, whatever this machine has.
+# The node declares enough resources for a task, whatever this machine has.
 cat >"$place/slurm.conf" <<CONF
 ClusterName=one
 SlurmctldHost=localhost(127.0.0.1)

@@ -244,7 +244,8 @@ static bool has_requirements(const struct search *s)
     bool needs_accepted = ceduo_goal_needs_accepted(s->def.goal);
     for (size_t c = 0; needs_accepted && c < scene->controls_count; c++)
         if (isnan(scene->controls[c].accepted))
-            return ceduo_problem(s->problems, &goal_source, 0, 0, _("exceed: controls[%zu] has no accepted_kJ; add it"), c);
+            return ceduo_problem(s->problems, &goal_source, 0, 0, _("exceed: control %zu has no limit (accepted_kJ); add it"),
+                                 c + 1);
     if (needs_accepted && s->file->scene.simulation.contact_model == CEDUO_INDEX)
         return ceduo_problem(s->problems, &goal_source, 0, 0,
                              _("exceed: with contact_model index no rock is simulated in the forest"));

@@ -125,7 +125,7 @@ static const struct field slope_fields[] = {
             "the default is for ground from the library, an assumption; for segments it is 0: all points")),
     FLAG("reversed", .shown = NAMED(N_("drawn upward")), MEMBER(ceduo_slope, reversed), .value = "false",
          .meaning = N_(
-             "whether the profile is drawn upward: it is mirrored with its segments or materials, so that x begins at its top; "
+             "true if the profile is drawn upward: it is mirrored with its segments or materials, so that x begins at its top; "
              "places in the scene are of the mirrored profile")),
 };
 static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slopes");
@@ -134,11 +134,11 @@ static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slo
 
 #define ITEM_FIELDS(min_row, max_row)                                                                                          \
     WORD_LIST("species", NAMED(N_("species")), LIST(ceduo_regulation_item, species, species_count), NO_RUN,                    \
-              N_("species that it is about; without it all that no row before names")),                                        \
+              N_("species of this row; without it all species that no earlier row names")),                                    \
         WORD("system", .shown = NAMED(N_("system")), MEMBER(ceduo_regulation_item, system), .flags = NO_RUN,                   \
-             .meaning = N_("silvicultural system that it is about; without it every one"), .choices = &ceduo_system_words),    \
+             .meaning = N_("silvicultural system of this row; without it every system"), .choices = &ceduo_system_words),      \
         min_row, max_row,                                                                                                      \
-        TEXT("article", NAMED(N_("article and act that say so")), MEMBER(ceduo_regulation_item, article), REQUIRED | NO_RUN,   \
+        TEXT("article", NAMED(N_("article and act of the rule")), MEMBER(ceduo_regulation_item, article), REQUIRED | NO_RUN,   \
              N_("article")),                                                                                                   \
         ROW(FIELD_COUNT, "year", .shown = NAMED(N_("year")), MEMBER(ceduo_regulation_item, year), RANGE("", 1800, 2200),       \
             .flags = REQUIRED | NO_RUN, .meaning = N_("year of that act"))
@@ -163,8 +163,7 @@ static const struct object turns_object = OBJECT(ceduo_regulation_item, turns_fi
 static const struct field rules_fields[] = {
     TAG("rules/1"),
     TEXT("name", NAMED(N_("region")), MEMBER(ceduo_regulation, name), REQUIRED | NO_RUN, N_("name of the region")),
-    TEXT("note", NAMED(N_("note")), MEMBER(ceduo_regulation, note), NO_RUN,
-         N_("what must be known beside; it is printed with the rules")),
+    TEXT("note", NAMED(N_("note")), MEMBER(ceduo_regulation, note), NO_RUN, N_("remark printed with the rules")),
     TEXT("note_it", NAMED(N_("in Italian")), MEMBER(ceduo_regulation, note_it), NO_RUN,
          N_("the same in Italian pages, screens and lists; without it in English")),
     ITEMS("standards", N_("standards"), LIST(ceduo_regulation, standards, standards_count), NO_RUN, &standards_object),
@@ -180,13 +179,14 @@ static const struct object rules_object = OBJECT(ceduo_regulation, rules_fields,
 
 static const struct field uncertainty_fields[] = {
     TEXT("path", NAMED(N_("value")), MEMBER(uncertainty_row, path), REQUIRED | NO_RUN,
-         N_("the value that is not known, as for --set; [*] stands for all items; slope.materials[NAME].KEY for a ground")),
-    UNCERTAINTY_NUMBER("lo", N_("lower end"), lo, N_("the least that it may be, in its unit; with hi")),
-    UNCERTAINTY_NUMBER("hi", N_("upper end"), hi, N_("the most that it may be; every value between is as likely")),
+         N_("the uncertain value, as for --set; [*] stands for all items; slope.materials[NAME].KEY for a ground")),
+    UNCERTAINTY_NUMBER("lo", N_("lower end"), lo, N_("lowest plausible value, in its unit; with hi")),
+    UNCERTAINTY_NUMBER("hi", N_("upper end"), hi, N_("highest plausible value; all values between are equally likely")),
     UNCERTAINTY_NUMBER("mean", N_("mean"), mean, N_("instead: the mean of a normal distribution; with sd")),
-    UNCERTAINTY_NUMBER("sd", N_("standard deviation"), sd, N_("its standard deviation; it is cut at three of them")),
+    UNCERTAINTY_NUMBER("sd", N_("standard deviation"), sd,
+                       N_("its standard deviation; the distribution is truncated at three of them")),
     WORD_LIST("one_of", NAMED(N_("one of")), LIST(uncertainty_row, one_of, one_of_count), NO_RUN,
-              N_("instead, for a word: those that it may be, each as likely")),
+              N_("instead, for a word: the plausible words, all equally likely")),
 };
 static const struct object uncertainty_object = OBJECT(uncertainty_row, uncertainty_fields, NULL);
 
@@ -414,16 +414,14 @@ static const struct field control_fields[] = {
     NUMBER("x_m", .shown = BRIEF(N_("counted at, m"), N_("at m")), PLACE(ceduo_control, x_given, x),
            RANGE("m", -COORDINATE_MAX, COORDINATE_MAX), .flags = REQUIRED | FIELD_PLACE,
            .meaning = N_("where passing rocks are counted")),
-    TEXT("name", NAMED(N_("name")), MEMBER(ceduo_control, name_given), NO_RUN, N_("what stands there")),
+    TEXT("name", NAMED(N_("name")), MEMBER(ceduo_control, name_given), NO_RUN, N_("name of the place")),
     NAME_IT(MEMBER(ceduo_control, name), 0),
     NUMBER("accepted_kJ", .shown = SHOWN(N_("limit, kJ"), N_("limit kJ"), 0, 20000), MEMBER(ceduo_control, accepted),
-           SCALED_RANGE("kJ", 1000, 0, 1e9), .meaning = N_("energy that what stands there withstands")),
-    NUMBER(
-        "accepted_return_y", .shown = SHOWN(N_("accepted return, years"), N_("return y"), 1, 10000),
-        MEMBER(ceduo_control, accepted_return), RANGE("y", 0, 1e6), .flags = ABOVE | NO_RUN | FIELD_CERTAIN,
-        .meaning = N_(
-            "with blocks: years from one rock with more than accepted_kJ to the next that are accepted there; without it 100, "
-            "an assumption")),
+           SCALED_RANGE("kJ", 1000, 0, 1e9), .meaning = N_("energy that the structure or road there withstands")),
+    NUMBER("accepted_return_y", .shown = SHOWN(N_("accepted return, years"), N_("return y"), 1, 10000),
+           MEMBER(ceduo_control, accepted_return), RANGE("y", 0, 1e6), .flags = ABOVE | NO_RUN | FIELD_CERTAIN,
+           .meaning =
+               N_("with blocks: accepted years between two rocks with more than accepted_kJ; without it 100, an assumption")),
     NUMBER("measured_speed_m_s", .shown = SHOWN(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80),
            MEMBER(ceduo_control, measured_speed), RANGE("m/s", 0, 1000), .flags = NO_RUN,
            .meaning = N_("speed of a real rock seen there, for comparison")),

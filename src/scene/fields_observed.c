@@ -27,14 +27,14 @@
            .meaning = N_("instead of values: their mean")),                                                                    \
         NUMBER("sd", .shown = NAMED(N_("standard deviation")), MEMBER(observed_values, sd), RANGE("", 0, 1e9),                 \
                .flags = NO_RUN, .meaning = N_("their standard deviation")),                                                    \
-        COUNT("n", N_("number"), n, 1, 0, N_("how many rocks they are of"))
+        COUNT("n", N_("number"), n, 1, 0, N_("number of rocks with a value"))
 
 static const struct field stops_fields[] = {
     VALUES("x_m", N_("stops"), N_("where rocks came to rest or were stopped; in the slope's coordinates")),
     TABLE,
     RELEASED,
     POSITION("seen_from_m", N_("looked for from, m"), seen_from, 0,
-             N_("stops before it were not looked for; without it all were")),
+             N_("stops above it were not searched for; without it the whole slope was searched")),
 };
 static const struct object stops_object = OBJECT(observed_values, stops_fields, NULL);
 ASKED_AT_ONCE(stops_fields);

@@ -58,7 +58,7 @@ static const struct range ranges[] = {
     ROW(FACTOR, GROWTH "shoots_young", 0.75, 1.25, ASSUMED, COUNTS),
     ROW(FACTOR, GROWTH "shoots_old", 0.75, 1.25, ASSUMED, COUNTS),
     ROW(FACTOR, GROWTH "sdi_most", 0.8, 1.2, ASSUMED, N_("plots of full coppices of this species")),
-    ROW(FACTOR, GROWTH "trees_sdi_most", 0.5, 2, ASSUMED, N_("plots of full woods of these standards")),
+    ROW(FACTOR, GROWTH "trees_sdi_most", 0.5, 2, ASSUMED, N_("plots of full forests of these standards")),
     ROW_WORDS(STAND "energy.model", "brauner", N_("two published laws (Brauner et al. 2005; Dorren et al. 2006)")),
     ROW_WORDS(STAND "energy.offset", "whole", N_("two published choices (Ciabocco et al. 2009; Dorren et al. 2006)")),
 };

@@ -46,12 +46,36 @@ void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...)
     app->message_is_warning = bad;
 }
 
-/* Show the first of a list of problems, without its place, which the cursor shows. */
+/* Return the field of a path, which may begin at a stand or at the slope; NULL if there is none. */
+static const struct field *find_field(struct app *app, const char *path, const char *key, size_t n)
+{
+    static const char *const roots[] = {"", "forest[0].stand.", "slope."};
+    const struct field *f = NULL;
+    for (size_t i = 0; !f && i < sizeof roots / sizeof roots[0]; i++)
+        f = ceduo_schema_row(
+            ceduo_app_format(app, "%s%s%s%.*s", roots[i], path, path[0] && n > 0 ? "." : "", (int)n, n > 0 ? key : ""));
+    return f && f->shown.label ? f : NULL;
+}
+
+/* Show the first of a list of problems, without its place, which the cursor shows. Keys have the names of the form. */
 static void show_first_problem(struct app *app, const struct problem_list *list)
 {
     const struct problem *p = list->items;
-    if (list->n > 0)
-        ceduo_app_warn(app, "%s%s%s", p->path, p->path[0] ? ": " : "", p->message);
+    LOCAL_TEXT(text);
+    if (list->n == 0)
+        return;
+    const char *words = ceduo_app_path(app, p->path), *from = p->message, *end;
+    const struct field *place = strcmp(words, p->path) == 0 ? find_field(app, p->path, NULL, 0) : NULL;
+    ceduo_text_format(&text, "%s%s", place ? _(place->shown.label) : words, p->path[0] ? ": " : "");
+    for (const char *quote; (quote = strchr(from, '\'')) && (end = strchr(quote + 1, '\''));) {
+        const struct field *f = find_field(app, p->path, quote + 1, (size_t)(end - quote - 1));
+        ceduo_text_append_n(&text, from, (size_t)((f ? quote + 1 : end) - from)); /* `end` may begin another quote */
+        ceduo_text_append(&text, f ? _(f->shown.label) : "");
+        ceduo_text_append(&text, f ? "'" : "");
+        from = f ? end + 1 : end;
+    }
+    ceduo_text_append(&text, from);
+    ceduo_app_warn(app, "%s", ceduo_text_string(&text));
 }
 
 /* ---- what is shown ---- */

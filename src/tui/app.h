@@ -218,7 +218,7 @@ size_t ceduo_items_find_segment(const struct app *app, double x_written);
 void ceduo_screen_draw(struct app *app);
 
 /* Return the view whose title is at this column of the top row; VIEW_COUNT: none. */
-enum view_number ceduo_screen_find_view(const struct app *app, int column);
+enum view_number ceduo_screen_find_view(struct app *app, int column);
 
 /* Draw wrapped text in a rectangle, without the first `skip` lines. Return the number of lines; the second only counts. */
 int ceduo_app_draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip);

@@ -20,9 +20,9 @@ static const struct {
     double per; /* amount of the unit in one unit of the goal */
 } goals[] = {{CEDUO_GOAL_ADC, N_("mean distance between hits below … m (ADC)"), "m", 1},
              {CEDUO_GOAL_FREE_RUN, N_("probability of a free run at most … %"), "%", 100},
-             {CEDUO_GOAL_EXCEED, N_("at most … per 1000 exceed accepted_kJ"), N_("per 1000"), 1000},
+             {CEDUO_GOAL_EXCEED, N_("at most … per 1000 exceed the limit"), N_("per 1000"), 1000},
              {CEDUO_GOAL_ARRIVE, N_("at most … per 1000 arrive"), N_("per 1000"), 1000},
-             {CEDUO_GOAL_WORST_EXCEED, N_("worst year: at most … per 1000 exceed accepted_kJ"), N_("per 1000"), 1000},
+             {CEDUO_GOAL_WORST_EXCEED, N_("worst year: at most … per 1000 exceed the limit"), N_("per 1000"), 1000},
              {CEDUO_GOAL_WORST_ARRIVE, N_("worst year: at most … per 1000 arrive"), N_("per 1000"), 1000},
              {CEDUO_GOAL_ENERGY, N_("mean energy of arrivals at most … kJ"), "kJ", 1}};
 #define GOALS_OFFERED (sizeof goals / sizeof goals[0])

@@ -119,7 +119,7 @@ static void append_lights(struct app *app, struct text *text, const struct previ
     append_light(text, "; ", _("free run"), f->index.free_run, current->free_run);
     append_light(text, "; ", _("energy"), f->index.energy, current->energy);
     if (!isnan(f->exceed))
-        ceduo_text_append_joined(text, ", ", _("about %.0f per 1000 above the accepted energy"), 1000 * f->exceed);
+        ceduo_text_append_joined(text, ", ", _("about %.0f per 1000 above the limit"), 1000 * f->exceed);
     else if (!isnan(f->reach))
         ceduo_text_append_joined(text, ", ", _("about %.0f per 1000 arrive"), 1000 * f->reach);
     ceduo_text_append(text, "\n");

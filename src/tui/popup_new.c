@@ -319,7 +319,7 @@ static void ask_new_scene(struct app *app)
     ceduo_popup_add_choice(p, _("ground below it"), _(ceduo_material_talus()->name), ceduo_popup_offer_grounds);
     ceduo_popup_add_value(p, _("rock: diameter, m"), ceduo_format_number(NULL, 0.6, buf), ceduo_schema_at("rock.diameter_m"));
     ceduo_popup_add_value(p, _("control at x, m"), "", ceduo_schema_at("controls[0].x_m"))->flags = FIELD_ABOVE;
-    ceduo_popup_add_value(p, _("accepted energy, kJ"), "50", ceduo_schema_at("controls[0].accepted_kJ"));
+    ceduo_popup_add_value(p, _("limit, kJ"), "50", ceduo_schema_at("controls[0].accepted_kJ"));
     ceduo_popup_add_choice(p, _("stand"), "simple-coppice", ceduo_popup_offer_stands);
 }
 

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -20,25 +19,71 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 #define MARKS_MORE  2   /* extra columns of the verdict's signs in ASCII */
 #define WIDE        100 /* columns for an extra blank between the titles of views */
 #define NAME_MIN    3   /* min. columns of the title of a closed view */
+#define NAME_SHORT  5   /* the same if the scene's name then fits */
 #define NAME_WANTED 20  /* wanted columns of it */
+#define UNSAVED     "* "
+#define SCENE_GAP   1 /* columns kept for blanks around the scene's name */
 
-/* Return the columns of the title of a view: number, blanks, and a name shortened so that all titles fit. */
-static int title_columns(const struct app *app, int view)
+/* Return the scene's title, with "* " if it is unsaved. */
+static const char *scene_title(struct app *app)
 {
-    int own = 0;
-    for (int max = NAME_WANTED, total = INT_MAX; total > app->width && max >= NAME_MIN; max--) {
-        total = 0;
-        for (int v = 0; v < VIEW_COUNT; v++) {
-            int name = (int)ceduo_utf8_width(ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help));
-            int columns = (v == (int)app->view || name < max ? name : max) + (app->width < WIDE ? 3 : 4);
-            total += columns;
-            own = v == view ? columns : own;
-        }
-    }
-    return own;
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    LOCAL_TEXT(safe);
+    ceduo_text_append(&safe, ceduo_document_unsaved(&app->document) ? UNSAVED : "");
+    ceduo_text_append_escaped(&safe, ceduo_in_language(scene->title, scene->title_it));
+    return ceduo_arena_string(app->scratch, ceduo_text_string(&safe));
 }
 
-enum view_number ceduo_screen_find_view(const struct app *app, int column)
+/* Return the columns of a view's title: number, blanks, and at most `max` columns of a closed view's name. */
+static int name_columns(const struct app *app, int view, int max)
+{
+    int name = (int)ceduo_utf8_width(ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + view].help));
+    return (view == (int)app->view || name < max ? name : max) + (app->width < WIDE ? 3 : 4);
+}
+
+/* Return the columns of the titles of all views. */
+static int all_columns(const struct app *app, int max)
+{
+    int total = 0;
+    for (int v = 0; v < VIEW_COUNT; v++)
+        total += name_columns(app, v, max);
+    return total;
+}
+
+/* Return the columns that the scene's name needs, with blanks and with the mark of unsaved work, which may come. */
+static int scene_columns(const struct app *app, const char *name)
+{
+    return ceduo_cells_label_width(app->charset, name) + SCENE_GAP +
+           (ceduo_document_unsaved(&app->document) ? 0 : (int)strlen(UNSAVED));
+}
+
+/* Return the name of the scene for the first line: its title if that fits next to short titles of views, otherwise the name
+ * of its file; empty if neither fits. */
+static const char *scene_name(struct app *app)
+{
+    const char *path = app->document.path ? app->document.path : "", *slash = strrchr(path, '/');
+    const char *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
+    LOCAL_TEXT(file);
+    ceduo_text_append(&file, ceduo_document_unsaved(&app->document) ? UNSAVED : "");
+    ceduo_text_append_escaped_n(&file, base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
+    const char *names[] = {scene_title(app), *base ? ceduo_arena_string(app->scratch, ceduo_text_string(&file)) : ""};
+    for (size_t i = 0; i < 2; i++)
+        if (all_columns(app, NAME_SHORT) + scene_columns(app, names[i]) <= app->width)
+            return names[i];
+    return "";
+}
+
+/* Return the columns of the title of a view. Names are shortened so that all titles and the scene's name fit. */
+static int title_columns(struct app *app, int view)
+{
+    const char *name = scene_name(app);
+    int scene = *name ? scene_columns(app, name) : 0, max = NAME_WANTED;
+    while (max > NAME_MIN && all_columns(app, max) + (max > NAME_SHORT ? scene : 0) > app->width)
+        max--;
+    return name_columns(app, view, max);
+}
+
+enum view_number ceduo_screen_find_view(struct app *app, int column)
 {
     int v = 0;
     for (int end = 0; v < VIEW_COUNT; v++)
@@ -47,17 +92,7 @@ enum view_number ceduo_screen_find_view(const struct app *app, int column)
     return (enum view_number)v;
 }
 
-/* Return the scene's title, with "* " if it is unsaved. */
-static const char *scene_title(struct app *app)
-{
-    const struct ceduo_scene *scene = &app->document.file.scene;
-    LOCAL_TEXT(safe);
-    ceduo_text_append(&safe, ceduo_document_unsaved(&app->document) ? "* " : "");
-    ceduo_text_append_escaped(&safe, ceduo_in_language(scene->title, scene->title_it));
-    return ceduo_arena_string(app->scratch, ceduo_text_string(&safe));
-}
-
-/* Draw the titles of the views, and the scene's title if all of it fits. Return true if it does. */
+/* Draw the titles of the views, and the scene's name. Return true if there is one. */
 static bool draw_title(struct app *app)
 {
     int x = 0;
@@ -66,11 +101,9 @@ static bool draw_title(struct app *app)
                                v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
                                ceduo_app_format(app, app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
                                                 ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help)));
-    const char *title = scene_title(app);
-    bool fits = ceduo_cells_label_width(app->charset, title) + 4 <= app->width - x;
-    if (fits)
-        ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 0, CEDUO_ROLE_TITLE, title);
-    return fits;
+    const char *name = scene_name(app);
+    ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 0, CEDUO_ROLE_TITLE, name);
+    return *name;
 }
 
 /* Draw the answer for the option shown, with the progress of the uncertainty while that may change the answer. */

@@ -124,8 +124,12 @@ static void append_progress(const struct live *live, struct ceduo_page *page)
 
 static struct ceduo_calibration_report make_report(const struct fit *f)
 {
-    return (struct ceduo_calibration_report){
-        .scenes_count = 1, .files = &f->file, .inputs = f->inputs, .rocks = f->request.rocks, .answer = &f->answer};
+    return (struct ceduo_calibration_report){.scenes_count = 1,
+                                             .files = &f->file,
+                                             .inputs = f->inputs,
+                                             .rocks = f->request.rocks,
+                                             .answer = &f->answer,
+                                             .fix_named = f->undetermined_count > 0};
 }
 
 static void append_fit(const struct fit *f, struct ceduo_page *page)
@@ -137,7 +141,8 @@ static void append_fit(const struct fit *f, struct ceduo_page *page)
     ceduo_calibration_names(&undetermined, f->inputs, f->request.n, f->undetermined);
     if (f->undetermined_count > 0)
         ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                        _("The observations do not determine all %zu values: fix %s. c fits without it, which is faster."),
+                        _("The observations do not determine all %zu values, so the ranges are rough: fix %s, or observe more. "
+                          "c fits without it, which is faster."),
                         f->request.n, ceduo_text_string(&undetermined));
     for (size_t i = 0; i < f->request.n; i++) {
         const struct ceduo_fitted *fitted = &f->answer.parameters[i];

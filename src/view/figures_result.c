@@ -313,7 +313,7 @@ static const struct ceduo_figure exceed_rate[] = {{"energy_kJ", "kJ", "energy", 
 
 static const struct ceduo_figure returns[] = {
     {"years", "y", "return period", MEMBER(return, years)},
-    {"energy_kJ", "kJ", "energy that is reached or exceeded once in so many years", MEMBER(return, energy.mean),
+    {"energy_kJ", "kJ", "energy that is reached or exceeded once in this number of years", MEMBER(return, energy.mean),
      .scale = J_TO_KJ, .null = TOO_RARE},
     {"lo", "kJ", "lower end of its 95 % interval", MEMBER(return, energy.lo), .scale = J_TO_KJ, .null = UNBOUND},
     {"hi", "kJ", "upper end of its 95 % interval", MEMBER(return, energy.hi), .scale = J_TO_KJ, .null = UNBOUND},
@@ -326,7 +326,7 @@ static const struct ceduo_figure matrix[] = {
     {.table = rate_figures, .offset = offsetof(struct ceduo_intensity, rate)},
     {"rate_left", "", "share of the rate without forest", MEMBER(intensity, remaining_share),
      .null = "none arrive without forest"},
-    {"to_30_years", "", "whether the energy of 30 years is in this class: a mark of the matrix",
+    {"to_30_years", "", "true if the energy of 30 years is in this class: a mark of the matrix",
      MEMBER(intensity, of_return[1])},
     {"to_100_years", "", "the same of 100 years", MEMBER(intensity, of_return[2])},
     {"to_300_years", "", "the same of 300 years", MEMBER(intensity, of_return[3])},
@@ -496,8 +496,9 @@ static const struct ceduo_figure arrivals[] = {
     {"energy_per_released_kJ", "kJ", "energy over all released rocks; one that does not arrive counts as 0",
      IN(arrivals, energy_per_released, paired), .scale = J_TO_KJ},
     {"fence", "", "rocks at the fence", .from = get_fenced, .table = fence_arrivals, .null = "the control has no fence"},
-    {"missed", "", "how the released end that do not reach it; with reach_probability these make 1", .table = missed},
-    {"hazard", "", "how often, and with how much", .from = get_hazard_figures, .table = hazard_figures,
+    {"missed", "", "ends of the released rocks that do not reach it; with reach_probability these add up to 1",
+     .table = missed},
+    {"hazard", "", "frequency and energy of the rocks", .from = get_hazard_figures, .table = hazard_figures,
      .null = "the scene has no blocks"},
     END};
 
@@ -509,7 +510,7 @@ static const struct ceduo_figure wooded[] = {
 static const struct ceduo_figure adc[] = {
     {"rule", "", "form that was used: gsteiger-stools, gsteiger-stems, interception or crofton", .value = adc_rule,
      .null = NO_STEMS},
-    {"adc_m", "m", "what it gives", MEMBER(stand_result, adc_m), .null = NO_STEMS},
+    {"adc_m", "m", "ADC by that form", MEMBER(stand_result, adc_m), .null = NO_STEMS},
     {"gsteiger_stools_m", "m", "ADC by gsteiger-stools", MEMBER(stand_result, adc.gsteiger_stools), .null = NO_STEMS},
     {"gsteiger_stems_m", "m", "ADC by gsteiger-stems", MEMBER(stand_result, adc.gsteiger_stems), .null = NO_STEMS},
     {"interception_m", "m", "ADC by interception", MEMBER(stand_result, adc.interception), .null = NO_STEMS},
@@ -523,7 +524,7 @@ static const struct ceduo_figure stand_result[] = {
     {"trees_per_ha", "1/ha", "single trees", MEMBER(stand_result, trees_per_ha)},
     {"basal_area_m2_ha", "m2/ha", "basal area", MEMBER(stand_result, basal_area)},
     {"adc", "", "Average Distance between Contacts", .table = adc},
-    {"passes_threshold", "", "whether adc.adc_m is below the threshold", MEMBER(stand_result, passes_threshold)},
+    {"passes_threshold", "", "true if adc.adc_m is below the threshold", MEMBER(stand_result, passes_threshold)},
     {"free_run_probability", "", "chance of running as far as the threshold inside the stand without a contact",
      MEMBER(stand_result, free_run_probability)},
     {"contacts", "", "contacts over the whole belt: length over ADC", MEMBER(stand_result, contacts)},
@@ -536,23 +537,23 @@ static const struct ceduo_figure stand_result[] = {
     {"logs_per_ha", "1/ha", "lying logs", MEMBER(stand_result, logs_per_ha)},
     END};
 
-#define SILENT    "the rules say nothing of its species"
-#define NEVER_CUT "the stand says nothing of its cutting"
+#define SILENT    "the rules do not name its species"
+#define NEVER_CUT "the stand has no cutting"
 static const struct ceduo_figure rules[] = {
-    {"region", "", "whose rules", .value = region_name},
+    {"region", "", "region of the rules", .value = region_name},
     {"standards_per_ha", "1/ha", "standards that a cut leaves, or without cutting the trees that stand",
      MEMBER(compliance, standards)},
     {"standards_least", "1/ha", "standards asked for at least", .from = get_standards, MEMBER(regulation_item, min),
      .null = SILENT},
     {"standards_most", "1/ha", "at most", .from = get_standards, MEMBER(regulation_item, max),
      .null = "there is no such limit"},
-    {"standards_met", "", "whether that is kept", .value = standards_met, .null = SILENT},
+    {"standards_met", "", "true if that is met", .value = standards_met, .null = SILENT},
     {"standards_article", "", "article and act", .from = get_standards, MEMBER(regulation_item, article), .null = SILENT},
     {"standards_year", "", "year of that act", .from = get_standards, MEMBER(regulation_item, year), .null = SILENT},
     {"turn_y", "y", "age of the oldest shoots at a cut", MEMBER(compliance, turn), .null = NEVER_CUT},
     {"turn_least", "y", "age asked for at least", .from = get_turn, MEMBER(regulation_item, min), .null = SILENT},
     {"turn_most", "y", "at most", .from = get_turn, MEMBER(regulation_item, max), .null = "there is no such limit"},
-    {"turn_met", "", "whether that is kept", .value = turn_met, .null = SILENT ", or " NEVER_CUT},
+    {"turn_met", "", "true if that is met", .value = turn_met, .null = SILENT ", or " NEVER_CUT},
     {"turn_article", "", "article and act", .from = get_turn, MEMBER(regulation_item, article), .null = SILENT},
     {"turn_year", "", "year of that act", .from = get_turn, MEMBER(regulation_item, year), .null = SILENT},
     END};
@@ -566,12 +567,12 @@ static const struct ceduo_figure stand_columns[] = {
 static const struct ceduo_figure stand_warnings[] = {
     {"warnings", "", "sentences about this stand", .sentences = report_stand_warnings}, END};
 
-static const struct ceduo_figure stand[] = {
-    {.table = stand_columns},
-    {.table = stand_warnings},
-    {"rules", "", "what the rules of the region ask of a coppice, and whether it is kept", .from = get_rules, .table = rules,
-     .null = "the scene names no rules, or the stand is no coppice"},
-    END};
+static const struct ceduo_figure stand[] = {{.table = stand_columns},
+                                            {.table = stand_warnings},
+                                            {"rules", "", "rules of the region for a coppice, and if they are met",
+                                             .from = get_rules, .table = rules,
+                                             .null = "the scene names no rules, or the stand is no coppice"},
+                                            END};
 
 static const struct ceduo_figure summary[] = {
     {"length_m", "m", "wooded length", MEMBER(index, length)},
@@ -582,7 +583,7 @@ static const struct ceduo_figure summary[] = {
     {"dissipated_kJ", "kJ", "energy that the stems could take", MEMBER(index, dissipated), .scale = J_TO_KJ},
     {"dissipated_kJ_per_100m", "kJ", "the same per 100 m of wooded length", .value = index_per_100m, .scale = J_TO_KJ,
      .null = "there is no forest"},
-    {"passes_threshold", "", "whether lights.contact of the last control is pass", .value = passes_contact},
+    {"passes_threshold", "", "true if lights.contact of the last control is pass", .value = passes_contact},
     END};
 
 static const struct ceduo_figure by_index[] = {
@@ -597,10 +598,10 @@ static const struct ceduo_figure by_index[] = {
     END};
 
 static const struct ceduo_figure lights[] = {
-    {"contact", "", "whether the stand makes contact often enough", LIGHT(contact)},
-    {"free_run", "", "whether long runs without contact are rare enough", LIGHT(free_run)},
+    {"contact", "", "pass if the stand makes contact often enough", LIGHT(contact)},
+    {"free_run", "", "pass if long runs without contact are rare enough", LIGHT(free_run)},
     {"energy", "",
-     "whether few enough rocks arrive with too much energy; unknown without accepted_kJ and with "
+     "pass if few enough rocks arrive with too much energy; unknown without accepted_kJ and with "
      "contact_model: index",
      LIGHT(energy)},
     {"contact_8cm", "", "contact, counting only stems from 8 cm on (from contact_dbh_m if that is more)", LIGHT(thick.contact)},
@@ -631,7 +632,7 @@ static const struct ceduo_figure alternative_energy[] = {
     {"exceed_lo", "", "lower end of its 95 % interval", MEMBER(alternative_energy, arrivals.exceed.lo), .null = NO_LIMIT},
     {"exceed_hi", "", "upper end of its 95 % interval", MEMBER(alternative_energy, arrivals.exceed.hi), .null = NO_LIMIT},
     {"energy_kJ", "kJ", "energy of the rocks that reach it", .table = other_mean, .scale = J_TO_KJ},
-    {"verdict", "", "what is said of the control", .table = verdict_of_other},
+    {"verdict", "", "answer for the control", .table = verdict_of_other},
     END};
 
 static const struct ceduo_figure verdict[] = {
@@ -655,17 +656,17 @@ static const struct ceduo_figure control[] = {
     {"name", "", "as in the scene", .from = get_control, MEMBER(control, name_given), .null = "the control has none"},
     {"accepted_kJ", "kJ", "as in the scene", .from = get_control, .value = accepted_energy, .null = "the control has none"},
     {"fence", "", "the net fence there", .from = get_fence, .table = fence, .null = "the control has none"},
-    {"topography", "", "how the control lies below the release", .from = get_topography, .table = topography},
-    {"bare", "", "what arrives without forest", .from = get_bare, .table = arrivals},
+    {"topography", "", "position of the control below the release", .from = get_topography, .table = topography},
+    {"bare", "", "rocks that arrive without forest", .from = get_bare, .table = arrivals},
     {"index", "", "the index of the paper", .from = get_index, .table = by_index},
-    {"wooded", "", "what arrives through the forest of this option", .from = get_wooded, .table = wooded,
+    {"wooded", "", "rocks that arrive through the forest of this option", .from = get_wooded, .table = wooded,
      .null = "contact_model is index"},
     {"other_energy", "", "the same rocks under the other energy law of stems", .from = get_alt, .table = alternative_energy,
      .null = "the option has no stems, contact_model is index, and in a year of --years"},
     {"design", "", "design values of a fence there", .from = get_designs, .table = designs, .null = "the scene has no design"},
     {"lights", "", "verdicts on the way from the release to this control, each pass, fail or unknown, never merged into one",
      .from = get_index, .table = lights},
-    {"verdict", "", "what is said of the control", .table = verdict},
+    {"verdict", "", "answer for the control", .table = verdict},
     END};
 
 #define ENDED(end) .value = share_at, .offset = offsetof(struct ceduo_simulated, ends.share[end])
@@ -692,14 +693,14 @@ static const struct ceduo_figure forest_rows[] = {
     {"controls", "", "an object for each control, in the scene's order", .table = control, .enter = enter_control},
     END};
 static const struct ceduo_figure end_rows[] = {
-    {"ends", "", "how the rocks end, over the whole profile, through the forest (with contact_model: index without it)",
+    {"ends", "", "ends of the rocks, over the whole profile, through the forest (with contact_model: index without it)",
      .from = get_run, .table = ends},
     {"stop_x_m", "m", "places where rocks were stopped by stems or came to rest", .from = get_stops, .table = stops,
      .null = "no rock was stopped or came to rest"},
     END};
 static const struct ceduo_figure year_rows[] = {
     {"year", "", "year, counted from the stands as filed", .from = get_year, MEMBER(year, year)},
-    {"cut", "", "whether a belt is cut in it", .from = get_year, MEMBER(year, cut)},
+    {"cut", "", "true if a belt is cut in it", .from = get_year, MEMBER(year, cut)},
     END};
 
 static const struct ceduo_figure felling[] = {
@@ -710,7 +711,7 @@ static const struct ceduo_figure felling[] = {
     {"volume_m3_ha", "m3/ha", "their volume", .from = get_felling, MEMBER(felling, volume)},
     END};
 
-#define NO_GROWTH "a stand says nothing of growth or cutting"
+#define NO_GROWTH "a stand has no growth or cutting"
 static const struct ceduo_figure yield_rows[] = {
     {"cut_m3_ha_per_year", "m3/ha", "volume felled per hectare of forest and year over a whole rotation",
      MEMBER(yield, cut_per_year), .null = NO_GROWTH},
@@ -729,10 +730,10 @@ static const struct ceduo_figure yield[] = {{.table = yield_columns},
 static const struct ceduo_figure year[] = {{.table = year_rows}, {.table = forest_rows}, END};
 
 #define FAILS(which) .value = failing_years, .offset = offsetof(struct ceduo_place, sum.which), .null = NOTHING_SAID
-#define NOTHING_SAID "nothing can be said"
+#define NOTHING_SAID "the forest cannot be assessed"
 static const struct ceduo_figure rotation[] = {
-    {"years", "", "how many years were computed", MEMBER(place, sum.years)},
-    {"felled_m", "m", "metres of belts felled in them, each time they are", .value = felled_length},
+    {"years", "", "number of years computed", MEMBER(place, sum.years)},
+    {"felled_m", "m", "length of the belts felled in them; a belt counts at each cut", .value = felled_length},
     {"unprotected_contact", "", "years in which lights.contact fails", FAILS(unprotected_contact)},
     {"unprotected_free_run", "", "years in which lights.free_run fails", FAILS(unprotected_free_run)},
     {"unprotected_contact_8cm", "", "years in which lights.contact_8cm fails", FAILS(thick_contact)},
@@ -746,7 +747,7 @@ static const struct ceduo_figure rotation[] = {
      MEMBER(place, sum.worst_year)},
     {"reach_per_year", "1/y", "rocks to be expected to arrive", MEMBER(place, sum.passes_per_year),
      .null = "the scene has no rocks_per_year"},
-    {"exceed_per_year", "1/y", "those of them with more than accepted_kJ", MEMBER(place, sum.exceeds_per_year),
+    {"exceed_per_year", "1/y", "of these, rocks with more than accepted_kJ", MEMBER(place, sum.exceeds_per_year),
      .null = "the scene has no rocks_per_year, or the control no accepted_kJ"},
     END};
 
@@ -841,7 +842,7 @@ const struct ceduo_figure ceduo_result_figures[] = {
      .table = option, .enter = enter_option},
     {"differences", "", "an object for each option but the first, and each control; [] with one option", .table = difference,
      .enter = enter_difference},
-    {"work", "", "what it took", .from = get_report, .table = work},
+    {"work", "", "work of the run", .from = get_report, .table = work},
     END};
 
 /* ---- a search ---- */
@@ -858,7 +859,7 @@ static const struct ceduo_figure search_figures[] = {
     {"hi", "", "upper end of the range", .from = get_search, MEMBER(search, hi)},
     END};
 static const struct ceduo_figure found_row[] = {
-    {"found", "", "whether a value reaches the goal", .from = get_found, MEMBER(found, found)}, END};
+    {"found", "", "true if a value reaches the goal", .from = get_found, MEMBER(found, found)}, END};
 static const struct ceduo_figure value_row[] = {
     {"value", "", "the value", .from = get_found, MEMBER(found, value), .null = NONE}, END};
 static const struct ceduo_figure side_row[] = {{"side", "", "smallest or largest: which of the values that reach it this is",
@@ -870,34 +871,35 @@ static const struct ceduo_figure goal_rows[] = {
     {"goal_at_nearest", "", "goal at that value", .from = get_nearest, MEMBER(found, goal_at_nearest), .null = ONE},
     END};
 #define NOT_SURE "--sure is not given, or nothing is uncertain"
-#define NO_ERROR NONE ", every value does, or the points do not tell it"
+#define NO_ERROR NONE ", every value does, or the points do not determine it"
 static const struct ceduo_figure sure_rows[] = {
-    {"wanted", "", "share of what may be true in which the goal is to be reached", MEMBER(reliability, sure)},
-    {"found", "", "whether a value reaches it in so much", MEMBER(reliability, found.found)},
+    {"wanted", "", "share of plausible cases in which the goal is to be reached", MEMBER(reliability, sure)},
+    {"found", "", "true if a value reaches it in that share", MEMBER(reliability, found.found)},
     {"value", "", "the value", MEMBER(reliability, found.value), .null = NONE},
     {"value_lo", "", "lower end of its 95 % interval, by the points and by the rocks", MEMBER(reliability, lo),
      .null = NO_ERROR},
     {"value_hi", "", "its upper end", MEMBER(reliability, hi), .null = NO_ERROR},
     {"side", "", "smallest or largest: which of the values that do this is", .value = reliable_side, .null = NONE},
-    {"probability", "", "share of what may be true in which this value reaches the goal", .from = get_sure_found,
+    {"probability", "", "share of plausible cases in which this value reaches the goal", .from = get_sure_found,
      MEMBER(reliability, share.value), .null = NONE},
     {"probability_se", "", "its standard error, by the points and by the rocks", .from = get_sure_found,
      MEMBER(reliability, share.se), .null = NONE},
-    {"nearest", "", "value that is surest", .from = get_sure_nearest, MEMBER(reliability, found.nearest), .null = ONE},
+    {"nearest", "", "value that reaches the goal in most plausible cases", .from = get_sure_nearest,
+     MEMBER(reliability, found.nearest), .null = ONE},
     {"probability_at_nearest", "", "share in which that reaches the goal", .from = get_sure_nearest,
      MEMBER(reliability, share.value), .null = ONE},
-    {"evaluations", "", "values looked at", MEMBER(reliability, found.evaluations)},
-    {"points", "", "points of what may be true, for each", MEMBER(reliability, points)},
+    {"evaluations", "", "values computed", MEMBER(reliability, found.evaluations)},
+    {"points", "", "plausible cases computed, for each", MEMBER(reliability, points)},
     {"rocks", "", "rocks at each point", MEMBER(reliability, rocks)},
     END};
 static const struct ceduo_figure found_yield[] = {
     {.from = get_found_yield, .table = yield_rows},
-    {"depends", "", "whether it depends on the value; otherwise it is the same over the whole range",
+    {"depends", "", "true if it depends on the value; otherwise it is equal over the whole range",
      MEMBER(find_report, yield_depends)},
     END};
 static const struct ceduo_figure find_rows[] = {
-    {"monotone", "", "whether the goal only rises or only falls over the range", .from = get_found, MEMBER(found, monotone)},
-    {"evaluations", "", "values looked at", .from = get_found, MEMBER(found, evaluations)},
+    {"monotone", "", "true if the goal only rises or only falls over the range", .from = get_found, MEMBER(found, monotone)},
+    {"evaluations", "", "values computed", .from = get_found, MEMBER(found, evaluations)},
     {"rocks", "", "rocks flown for each", .from = get_search, MEMBER(search, rocks)},
     {"over", "", "today, or rotation: over one whole rotation, where the parameter is one of growth or cutting",
      .from = get_search, .value = search_period},

@@ -130,7 +130,7 @@ static const struct ceduo_figure uncertainty_scene_rows[] = {
     {"title", "", "title of the scene", .from = uncertain_scene_object, MEMBER(scene, title)},
     {"seed", "", "seed of the random numbers", .from = uncertain_scene_object, MEMBER(scene, simulation.seed)},
     {"rocks", "", "rocks of each scene computed", .value = uncertainty_rocks},
-    {"points", "", "points of what may be true", .value = uncertainty_points},
+    {"points", "", "plausible cases computed", .value = uncertainty_points},
     END};
 
 static const struct ceduo_figure band_rows[] = {
@@ -154,7 +154,7 @@ static const struct ceduo_figure uncertainty_figure_rows[] = {
     {"sampling_lo", "", "lower end of its 95 % interval, by the rocks", FIGURE(sampling_lo), .null = NO_LIMIT},
     {"sampling_hi", "", "upper end of its 95 % interval", FIGURE(sampling_hi), .null = NO_LIMIT},
     {"uncertainty", "", "by the uncertain inputs", .table = band_rows},
-    {"within", "", "share of what may be true in which no more exceed than are allowed", FIGURE(fit.share_below.value),
+    {"within", "", "share of plausible cases in which no more exceed than are allowed", FIGURE(fit.share_below.value),
      .null = "the figure is not the share that exceeds, today or in the mean of the years"},
     {"within_se", "", "its standard error", FIGURE(fit.share_below.se),
      .null = "the figure is not the share that exceeds, today or in the mean of the years"},
@@ -184,17 +184,16 @@ static const struct ceduo_figure input_rows[] = {
     {"path", "", "path of the input", .from = get_input, MEMBER(input, path)},
     {"paths", "", "paths for --set, with the same --option: all of them at one value are the input at that value",
      .sentences = report_paths},
-    {"places", "", "how many values of the scene move with it", .from = get_input, MEMBER(input, places_count)},
-    {"source", "", "where its range comes from", .from = get_input, MEMBER(input, source)},
-    {"measured_by", "", "what would measure it", .value = input_measured, .null = "nothing that is known"},
+    {"places", "", "number of values of the scene that change with it", .from = get_input, MEMBER(input, places_count)},
+    {"source", "", "source of its range", .from = get_input, MEMBER(input, source)},
+    {"measured_by", "", "measurement that would reduce its range", .value = input_measured, .null = "nothing that is known"},
     {.table = input_range_rows},
     END};
 
 static const struct ceduo_figure first_rows[] = {
     {"path", "", "path of the input", .from = get_input, MEMBER(input, path)},
-    {"measured_by", "", "what would measure it", .value = input_measured},
-    {"option", "", "option that it is about: the one that lets least pass in the mean of plausible cases",
-     .value = uncertainty_option},
+    {"measured_by", "", "measurement that would reduce its range", .value = input_measured},
+    {"option", "", "its option: the one that lets least pass in the mean of plausible cases", .value = uncertainty_option},
     {"width_if_known", "", "expected width of the 90 % range of its figure if this input were known",
      .value = input_known_width, .null = FEW_POINTS},
     END};
@@ -209,7 +208,7 @@ static const struct ceduo_figure ranking_rows[] = {
     {"than", "", "name of the next one", .value = order_than},
     {"x_m", "m", "the last control", .value = uncertainty_x},
     {"over", "", "today, or rotation: by the mean of the years", .value = order_period},
-    {"probability", "", "share of what may be true in which it is better", .from = ranked,
+    {"probability", "", "share of plausible cases in which it is better", .from = ranked,
      MEMBER(uncertainty_order, probability)},
     {"equal", "", "in which they differ by at most 5 of 1000, or of energies by 0.5 % of the mean without forest",
      .from = ranked, MEMBER(uncertainty_order, equal)},
@@ -288,18 +287,18 @@ VALUE(observed_number, place, NUMBER,
 VALUE(single_inside, place, COUNT,
       get_observation(o)->values && !isnan(get_prediction(o)->one_lo) ? COUNT(get_prediction(o)->one_inside) : NO_VALUE)
 
-#define NO_RANGE "the draws do not tell it"
+#define NO_RANGE "the draws do not determine it"
 
 static const struct ceduo_figure fitted_rows[] = {
     {"path", "", "path of the value", .value = fitted_path},
     {"lo", "", "lower bound that was given", .from = get_fitted, MEMBER(fitted, lo)},
     {"hi", "", "upper bound that was given", .from = get_fitted, MEMBER(fitted, hi)},
     {"best", "", "value that fits best", .from = get_fitted, MEMBER(fitted, best)},
-    {"p2_5", "", "lower end of what is not refuted, 95 %", .from = get_fitted, MEMBER(fitted, p2_5), .null = NO_RANGE},
+    {"p2_5", "", "lower end of its 95 % interval", .from = get_fitted, MEMBER(fitted, p2_5), .null = NO_RANGE},
     {"p50", "", "its median", .from = get_fitted, MEMBER(fitted, p50), .null = NO_RANGE},
     {"p97_5", "", "its upper end", .from = get_fitted, MEMBER(fitted, p97_5), .null = NO_RANGE},
-    {"determined", "", "whether the observations determine it", .from = get_fitted, MEMBER(fitted, identified)},
-    {"at_bound", "", "whether it lies at a bound", .from = get_fitted, MEMBER(fitted, at_bound)},
+    {"determined", "", "true if the observations determine it", .from = get_fitted, MEMBER(fitted, identified)},
+    {"at_bound", "", "true if it lies at a bound", .from = get_fitted, MEMBER(fitted, at_bound)},
     END};
 
 static const struct ceduo_figure correlation_cell[] = {{NULL, "", "", .value = correlation}, END};
@@ -311,17 +310,17 @@ static const struct ceduo_figure observation_rows[] = {
     {"scene", "", "path of its scene", .value = observed_scene},
     {"option", "", "name of its option", .value = observed_option},
     {"use", "", "fit or check", .value = observed_use},
-    {"n", "", "how many rocks were observed", .value = observed_n},
+    {"n", "", "number of observed rocks", .value = observed_n},
     {"deviance", "", "deviance at the best values", .from = prediction_object, MEMBER(predicted, at_best.deviance)},
-    {"p_value", "", "how often simulated rocks deviate as much", .from = prediction_object, MEMBER(predicted, p_value),
+    {"p_value", "", "probability that simulated rocks deviate as much", .from = prediction_object, MEMBER(predicted, p_value),
      .null = NO_RANGE},
     {"seen", "", "mean of what was observed", OBSERVED(observed)},
     {"predicted_lo", "", "lower end of what the fit predicts of that mean, 95 %", OBSERVED(lo), .null = NO_RANGE},
     {"predicted_hi", "", "its upper end", OBSERVED(hi), .null = NO_RANGE},
-    {"inside", "", "whether the mean lies between the two", .from = prediction_object, MEMBER(predicted, inside)},
+    {"inside", "", "true if the mean lies between the two", .from = prediction_object, MEMBER(predicted, inside)},
     {"single_lo", "", "lower end of what the fit predicts of single rocks, 95 %", OBSERVED(one_lo), .null = NO_RANGE},
     {"single_hi", "", "its upper end", OBSERVED(one_hi), .null = NO_RANGE},
-    {"single_inside", "", "how many of the values lie between the two", .value = single_inside,
+    {"single_inside", "", "number of values between the two", .value = single_inside,
      .null = "it holds no single values, or " NO_RANGE},
     END};
 
@@ -334,11 +333,11 @@ const struct ceduo_figure ceduo_calibration_figures[] = {
     {"parameters", "", "an object for each fitted value", .table = fitted_rows, .enter = enter_fitted},
     {"correlation", "", "of these values, row by row", .table = correlation_row, .enter = enter_fitted, .plain = true},
     {"observations", "", "an object for each observation", .table = observation_rows, .enter = enter_predicted},
-    {"misfit", "", "whether the model cannot give something that it was fitted to", .from = calibration_object,
+    {"misfit", "", "true if the model cannot reproduce an observation that it was fitted to", .from = calibration_object,
      MEMBER(calibration, misfit)},
-    {"refuted", "", "whether the fit does not hold for what was to check it", .from = calibration_object,
+    {"refuted", "", "true if the fit does not reproduce the observations held back to check it", .from = calibration_object,
      MEMBER(calibration, check_failed)},
-    {"settled", "", "whether the chains agree", .from = calibration_object, MEMBER(calibration, converged)},
+    {"settled", "", "true if the chains agree", .from = calibration_object, MEMBER(calibration, converged)},
     {"evaluations", "", "scenes computed", .from = calibration_object, MEMBER(calibration, evaluations)},
     {"rhat", "", "largest potential scale reduction of the values", .from = calibration_object, MEMBER(calibration, rhat)},
     {"effective_size", "", "smallest effective size of the values", .from = calibration_object,

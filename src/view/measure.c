@@ -73,16 +73,16 @@ struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind kind, const st
 {
     static const struct {
         const char *name, *phrase;
-    } names[CEDUO_MEASURE_KINDS] = {[CEDUO_STOPPED] = {N_("stems stop"), N_("stopped by stems before")},
-                                    [CEDUO_RESTED] = {N_("at rest"), N_("at rest before")},
-                                    [CEDUO_GONE] = {N_("left the slope"), N_("left the slope before")},
-                                    [CEDUO_ENDLESS] = {N_("unfinished"), N_("never come to an end")},
+    } names[CEDUO_MEASURE_KINDS] = {[CEDUO_STOPPED] = {N_("stems stop"), N_("stopped by stems before it")},
+                                    [CEDUO_RESTED] = {N_("at rest"), N_("at rest before it")},
+                                    [CEDUO_GONE] = {N_("left the slope"), N_("left the slope before it")},
+                                    [CEDUO_ENDLESS] = {N_("unfinished"), N_("still moving at the end")},
                                     [CEDUO_MEAN_KJ] = {N_("mean kJ"), N_("mean energy of those that arrive, kJ")},
                                     [CEDUO_P95_KJ] = {N_("95 % below kJ"), N_("95 % stay below, kJ")},
                                     [CEDUO_RELEASED_KJ] = {N_("kJ a rock"), N_("energy per released rock, kJ")},
                                     [CEDUO_P95_HEIGHT] = {N_("95 % below m"), N_("95 % stay below, m above ground")},
                                     [CEDUO_SPEED] = {N_("mean m/s"), N_("mean speed of those that arrive, m/s")},
-                                    [CEDUO_STEMS_HIT] = {N_("stems hit"), N_("stems hit by one that arrives")}};
+                                    [CEDUO_STEMS_HIT] = {N_("stems hit"), N_("stems hit per arriving rock")}};
     static const struct ceduo_arrivals none;
     const struct ceduo_arrivals *a = arrivals ? arrivals : &none;
     const double half_widths[CEDUO_MEASURE_KINDS] = {[CEDUO_MEAN_KJ] = J_TO_KJ * ceduo_half_width(a->energy.se, a->reached),
@@ -241,8 +241,11 @@ const char *ceduo_measure_plausible_range(struct ceduo_measure m, char buffer[CE
 
 const char *ceduo_measure_error(struct ceduo_measure m, const char *between, char buffer[CEDUO_WORDS_SIZE])
 {
-    bool known = !isnan(m.value) && !isnan(m.half_width) && m.digits == 0;
-    snprintf(buffer, CEDUO_WORDS_SIZE, known ? "%s%s\xc2\xb1%.0f" : "%s", MEASURE_VALUE(m), between, ceil(m.half_width));
+    bool known = !isnan(m.value) && !isnan(m.half_width);
+    struct ceduo_measure error = m;
+    error.value = m.digits > 0 ? m.half_width : ceil(m.half_width);
+    error.digits = m.digits > 0 ? 2 : 0;
+    snprintf(buffer, CEDUO_WORDS_SIZE, known ? "%s%s\xc2\xb1%s" : "%s", MEASURE_VALUE(m), between, MEASURE_VALUE(error));
     return buffer;
 }
 

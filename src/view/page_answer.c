@@ -19,32 +19,33 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
     if (r->scene->controls_count == 0)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_QUESTION);
-    LOCAL_TEXT(place);
-    ceduo_words_place(&place, last_control(r));
-    const char *place_name = ceduo_text_string(&place), *withstands = LOCALIZED(ceduo_words_accepted(last_control(r)));
+    const char *x = LOCALIZED(last_control(r)->x_given), *withstands = LOCALIZED(ceduo_words_accepted(last_control(r)));
     size_t n = r->scene->options_count;
-    bool accepted = !isnan(last_control(r)->accepted);
-    LOCAL_TEXT(limited);
-    if (last_control(r)->name)
-        ceduo_text_format(&limited, _("%s (%s m, limit %s kJ)"), NAME_OF(last_control(r)), LOCALIZED(last_control(r)->x_given),
-                          withstands);
+    bool accepted = !isnan(last_control(r)->accepted), named = last_control(r)->name;
+    LOCAL_TEXT(place);
+    if (named && accepted)
+        ceduo_text_format(&place, _("'%s' (%s m, limit %s kJ)"), NAME_OF(last_control(r)), x, withstands);
+    else if (named)
+        ceduo_text_format(&place, _("'%s' (%s m)"), NAME_OF(last_control(r)), x);
+    else if (accepted)
+        ceduo_text_format(&place, _("the place at %s m (limit %s kJ)"), x, withstands);
     else
-        ceduo_text_format(&limited, _("%s m (limit %s kJ)"), LOCALIZED(last_control(r)->x_given), withstands);
+        ceduo_text_format(&place, _("the place at %s m"), x);
     struct ceduo_window window = ceduo_scene_window(r->scene);
     unsigned years = window.kind == CEDUO_WINDOW_AHEAD ? window.last : 0;
     if (n == 1 && accepted && years > 0)
         ceduo_text_format(text,
                           ngettext("Does the forest protect %s over the next %u year?",
                                    "Does the forest protect %s over the next %u years?", years),
-                          limited.bytes, years);
+                          place.bytes, years);
     else if (n == 1 && accepted)
-        ceduo_text_format(text, _("Does the forest protect %s?"), limited.bytes);
+        ceduo_text_format(text, _("Does the forest protect %s?"), place.bytes);
     else if (n == 1)
-        ceduo_text_format(text, _("How many rocks does the forest keep from %s?"), place_name);
+        ceduo_text_format(text, _("How many rocks does the forest keep from %s?"), place.bytes);
     else if (accepted)
-        ceduo_text_format(text, _("Which of %zu treatments is best for %s?"), n, limited.bytes);
+        ceduo_text_format(text, _("Which of %zu treatments best protects %s?"), n, place.bytes);
     else
-        ceduo_text_format(text, _("Which of %zu treatments keeps most rocks from %s?"), n, place_name);
+        ceduo_text_format(text, _("Which of %zu treatments keeps the most rocks from %s?"), n, place.bytes);
 }
 
 /* ---- the answer ---- */
@@ -74,7 +75,7 @@ static void append_within_limit(struct text *text, const struct ceduo_report *re
     ceduo_text_append_char(text, ' ');
     ceduo_text_append_with(text, sentence, ceduo_text_string(&passing));
     if (strcmp(ceduo_text_string(&depends), _("none")) != 0)
-        ceduo_text_append_joined(text, " ", _("It depends on uncertain inputs for %s."), ceduo_text_string(&depends));
+        ceduo_text_append_joined(text, " ", _("For %s it depends on uncertain inputs."), ceduo_text_string(&depends));
 }
 
 static void add_ranking(struct ceduo_page *page, const struct ceduo_report *report)
@@ -165,7 +166,11 @@ static void append_sampling(struct text *text, const struct ceduo_report *report
             mean = fmax(mean, v->choices[i].mean.half);
     }
     if (!r->wooded) {
-        ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"), SIG(ceduo_measure_figure(CEDUO_MEAN_KJ, bare).half_width, 2));
+        double half_width = ceduo_measure_figure(CEDUO_MEAN_KJ, bare).half_width;
+        if (isnan(half_width))
+            ceduo_text_append(&error, _("the mean of a single rock has none"));
+        else
+            ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"), SIG(half_width, 2));
     } else if (r->scene->options_count == 1) {
         const struct ceduo_measure m = ceduo_measure_exceeding(last_control(r), ceduo_result_wooded(r, 0, r->last_control));
         ceduo_text_append(&error, SPAN(m, m.lo, m.hi));

@@ -158,7 +158,8 @@ static void add_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         append_observation_name(&name, r, p);
         if (p->p_value < CEDUO_MISFIT)
             ceduo_page_para(page, CEDUO_PAGE_WARNING,
-                            o->use != CEDUO_OBSERVED_FIT ? _("The fit does not hold for what was to check it: %s.")
+                            o->use != CEDUO_OBSERVED_FIT
+                                ? _("The fit does not reproduce the observations held back to check it: %s.")
                             : p->inside ? _("The model reproduces the observed mean, but not the spread of the values: %s.")
                                         : _("The model cannot reproduce %s."),
                             ceduo_text_string(&name));
@@ -166,13 +167,13 @@ static void add_misfits(struct ceduo_page *page, const struct ceduo_calibration_
             LOCAL_TEXT(range); /* 95 % range of single rocks, compared with observations held back */
             append_range(&range, ceduo_observed_shown(file, p, p->one_lo), ceduo_observed_shown(file, p, p->one_hi));
             ceduo_page_para(page, CEDUO_PAGE_ITEM,
-                            _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
-                            ceduo_text_string(&name), o->n, p->one_inside, ceduo_text_string(&range));
+                            _("%s: %zu of %zu values lie within the 95 %% range predicted for single rocks, %s."),
+                            ceduo_text_string(&name), p->one_inside, o->n, ceduo_text_string(&range));
         }
         if (o->kind == CEDUO_OBSERVED_SCARS && o->released_count > 0 && isnan(o->share_seen))
             ceduo_page_para(page, CEDUO_PAGE_WARNING,
-                            _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
-                              "number of blows is taken too low."),
+                            _("A survey misses some scars, and %s gives no share_seen, the share that it found: the number of "
+                              "impacts is underestimated."),
                             ceduo_text_string(&name));
     }
     if (!a->misfit)
@@ -203,7 +204,7 @@ void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibra
     const struct ceduo_calibration *a = r->answer;
     add_misfits(page, r);
     add_value_warnings(page, r);
-    if (!a->converged)
+    if (!a->converged && !r->fix_named)
         add_unconverged(page, r);
     ceduo_page_note(page, _("A fitted ground holds for this profile. A neighbouring profile may need another ground."));
     ceduo_page_para(page, CEDUO_PAGE_NOTE,

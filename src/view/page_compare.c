@@ -472,8 +472,8 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     for (size_t k = 0; k < (r->wooded && !isnan(last_control(r)->accepted) ? 3u : 2u); k++)
         if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
             ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                            passes[k] == n ? _("Today all options pass the test of %s: it does not separate them.")
-                                           : _("Today no option passes the test of %s: it does not separate them."),
+                            passes[k] == n ? _("Today all options pass the test of %s: it does not distinguish them.")
+                                           : _("Today no option passes the test of %s: it does not distinguish them."),
                             _(ceduo_light_names[k]));
     if (!v)
         return;
@@ -486,10 +486,9 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     for (size_t i = 0; v->choices[0].last_summary->years > 0 && i < v->n; i++) { /* limits of the yield model */
         known |= !isnan(v->choices[i].yield.cut_per_year);
         if (v->choices[i].yield.space > 1)
-            ceduo_page_para(
-                page, CEDUO_PAGE_NOTE,
-                _("'%s' keeps more standards than the ground bears (%.0f %% of the growing space): its yield is not computed."),
-                r->scene->options[i].name, 100 * v->choices[i].yield.space);
+            ceduo_page_para(page, CEDUO_PAGE_NOTE,
+                            _("'%s': the standards would take %.0f %% of the growing space, so its yield is not computed."),
+                            r->scene->options[i].name, 100 * v->choices[i].yield.space);
     }
     if (known)
         ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "

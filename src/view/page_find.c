@@ -34,7 +34,7 @@ void ceduo_find_reliable(struct text *text, const struct ceduo_search *s, const 
     char buffer[CEDUO_NUMBER_SIZE], from[CEDUO_NUMBER_SIZE], to[CEDUO_NUMBER_SIZE];
     double percent = reliability->sure * 100, reached = reliability->share.value * 100, error = 196 * reliability->share.se;
     if (reliability->inputs == 0)
-        ceduo_text_append(text, _("no other input is uncertain: the result holds if the scene does"));
+        ceduo_text_append(text, _("no other input is uncertain: the result holds if the scene is right"));
     else if (!f->found)
         ceduo_text_format(text, _("no value holds in %g %% of plausible cases; nearest: %s, in %.0f %% (\xc2\xb1%.0f)"),
                           percent, ceduo_format_number(field, f->nearest, buffer), reached, error);
@@ -69,7 +69,7 @@ void ceduo_find_words(struct text *text, const struct ceduo_search *s, const str
     if (!f->found && !isnan(f->nearest))
         ceduo_text_append_joined(text, "; ", _("nearest: %s, %s"), ceduo_format_number(field, f->nearest, buffer), goal.bytes);
     if (limit_wanted)
-        ceduo_text_append_joined(text, " ", row->below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
+        ceduo_text_append_joined(text, " ", row->below ? _("(goal: below %g %s)") : _("(goal: at most %g %s)"),
                                  ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target, row->unit);
 }
 

@@ -33,8 +33,8 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
     const struct ceduo_slope *slope = &s->slope;
     struct text *line = ceduo_page_item(page, CEDUO_PAGE_FACT, _("Rock"));
     ceduo_text_format(line,
-                      s->blocks_count > 0 ? _("%s; rocks are the blocks below, the index is of %s kg, mean diameter %s m")
-                      : ceduo_rock_varies(&s->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
+                      s->blocks_count > 0           ? _("%s; sizes as in Blocks; index for a rock of %s kg, mean diameter %s m")
+                      : ceduo_rock_varies(&s->rock) ? _("%s, %s kg, mean diameter %s m (means; sizes vary)")
                                                     : _("%s, %s kg, mean diameter %s m"),
                       _(shapes[s->rock.shape]), SIG(r->rock.mass, 4), SIG(r->rock.mean_diameter, 3));
     ceduo_text_append(line, assumed_mark(report, "rock"));
@@ -84,23 +84,13 @@ static void add_texts_row(struct ceduo_page *page, const char *const texts[3][2]
     }
 }
 
-/* Return a figure with its error, for a column that is too narrow for the interval. */
-static const char *format_half_width(const struct ceduo_page *page, struct ceduo_measure m, char buffer[CEDUO_WORDS_SIZE])
-{
-    if (page->width < CEDUO_PAGE_WIDTH || isnan(m.half_width))
-        return ceduo_measure_error(m, "", buffer);
-    snprintf(buffer, CEDUO_WORDS_SIZE, "%s\xc2\xb1%s", MEASURE_VALUE(m), SIG(m.half_width, 2));
-    return buffer;
-}
-
 static void add_figure(struct ceduo_page *page, struct ceduo_measure wooded, struct ceduo_measure bare)
 {
     bool pane = page->width < CEDUO_PAGE_WIDTH;
-    char with[CEDUO_WORDS_SIZE], without[CEDUO_WORDS_SIZE];
-    add_texts_row(
-        page, (const char *const[3][2]){{MEASURE_NAME(bare, CEDUO_PHRASE), MEASURE_NAME(bare, CEDUO_ROW)},
-                                        {INTERVAL(wooded), format_half_width(page, wooded, with)},
-                                        {INTERVAL(bare), pane ? MEASURE_VALUE(bare) : format_half_width(page, bare, without)}});
+    add_texts_row(page, (const char *const[3][2]){
+                            {MEASURE_NAME(bare, CEDUO_PHRASE), MEASURE_NAME(bare, CEDUO_ROW)},
+                            {INTERVAL(wooded), pane && wooded.digits > 0 ? MEASURE_VALUE(wooded) : WITH_ERROR(wooded, "")},
+                            {INTERVAL(bare), pane ? MEASURE_VALUE(bare) : WITH_ERROR(bare, "")}});
 }
 
 #define PANE_WIDE 34 /* columns needed for an interval */
@@ -313,7 +303,7 @@ static void add_other_forms(struct ceduo_page *page, const struct ceduo_scene *s
                 between = ",";
             }
         const struct ceduo_belt *b = &o->belts[i];
-        ceduo_text_format(line, _("; %s m of the map are %s m along the ground"), LOCALIZED(threshold),
+        ceduo_text_format(line, _("; %s m on the map are %s m along the ground"), LOCALIZED(threshold),
                           SIG(threshold * ground_length(&scene->slope, b->from, b->to) / (b->to - b->from), 2));
     }
 }
@@ -335,7 +325,8 @@ static void add_residual(struct ceduo_page *page, const struct ceduo_result *r, 
                         _("By the index stems could absorb %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."),
                         SAME_DECIMALS(taken), SIG(index->per_100m * J_TO_KJ, 3), SAME_DECIMALS(mean), rest.bytes);
     if (!isnan(index->measured))
-        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
+        ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
+                        _("Measured here on one rock: %s kJ (%g m/s). One rock does not validate the model."),
                         SIG(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
 }
 
@@ -355,7 +346,7 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
     for (size_t i = 0; i < CEDUO_SIZES; i++)
         own = blocks[i].own ? blocks[i].volume : own;
     ceduo_page_para(page, CEDUO_PAGE_CAPTION,
-                    _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"),
+                    _("Blocks of other sizes, same shape and release; of 1000 at %s m (> this scene's size):"),
                     LOCALIZED(c->x_given));
     CEDUO_PAGE_TABLE_OF(page, columns);
     ceduo_page_limit(ceduo_page_head(page), c);
@@ -475,6 +466,21 @@ static bool is_shown_note(const struct ceduo_report *report, const struct source
     return strcmp(note->kind, "assumed") == 0 && (report->years || !ceduo_note_years(note));
 }
 
+/* Append the name of an assumed value for a list: "limit of control 1", "bounce Rn". `where`: its place; empty: `sentence` is
+ * the source of a whole scene, and its first clause is used. */
+static void add_assumed_name(struct ceduo_page *page, const char *path, const char *where, const char *sentence)
+{
+    const char *dot = strrchr(path, '.');
+    if (strncmp(path, "controls[", 9) == 0 && !dot)
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, _("limit of %s"), where);
+    else if (dot && strcmp(dot, ".stools") == 0)
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%s", _("stools per ha; shoot spacing"));
+    else if (*where)
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(where, ","), where);
+    else
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(sentence, ";"), sentence);
+}
+
 /* Append notes in order; the list has the last first. */
 static void add_assumption(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note,
                            bool places)
@@ -497,9 +503,8 @@ static void add_assumption(struct ceduo_page *page, const struct ceduo_report *r
     const char *dot = strncmp(note->path, "options[", 8) == 0 ? strchr(note->path, '.') : NULL;
     size_t option = dot ? strtoul(note->path + 8, NULL, 10) : SIZE_MAX;
     ceduo_format_path(dot ? dot + 1 : note->path, &where);
-    if (!places) { /* the name of the value, or the first clause of the source of a whole scene */
-        const char *what = where.length > 0 ? where.bytes : sentence;
-        ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(what, where.length > 0 ? "," : ";"), what);
+    if (!places) {
+        add_assumed_name(page, note->path, ceduo_text_string(&where), sentence);
         return;
     }
     if (option < scene->options_count)

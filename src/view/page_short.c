@@ -142,5 +142,5 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     if (report->years && !nothing && n > 1)
         ceduo_page_years_all_options(page, report);
     ceduo_text_format(ceduo_page_item(page, CEDUO_PAGE_POINT, _("MORE")), "--details%s, --sensitivity, --report page.html; %s",
-                      complete ? "" : _(" (notes)"), complete ? _("as screens: ceduo SCENE") : _("or ceduo SCENE"));
+                      complete ? "" : _(" (notes)"), complete ? _("interactive: ceduo SCENE") : _("or ceduo SCENE"));
 }

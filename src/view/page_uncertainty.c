@@ -37,7 +37,7 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
     const char *place = input->places[0], *ground = input->path + sizeof GROUND_PATH - 1;
     struct value v;
     if (input->kind == CEDUO_INPUT_DRAWS) {
-        ceduo_text_append(text, _("left open by calibration"));
+        ceduo_text_append(text, _("calibration draws"));
         return;
     }
     if (!ceduo_value_find(&r->file->scene, place, &v)) {
@@ -431,8 +431,8 @@ void ceduo_uncertainty_order_words(struct text *text, const struct ceduo_uncerta
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_uncertainty_order *o = &r->answer->orders[i];
     ceduo_text_format(text,
-                      r->answer->rotation ? _("Over the years %s beats %s in %.0f %% of plausible cases")
-                                          : _("Today %s beats %s in %.0f %% of plausible cases"),
+                      r->answer->rotation ? _("Over the years '%s' beats '%s' in %.0f %% of plausible cases")
+                                          : _("Today '%s' beats '%s' in %.0f %% of plausible cases"),
                       s->options[o->better].name, s->options[o->than].name, o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
@@ -474,10 +474,10 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     bool several = s->options_count > 1;
     const char *place = c->name ? c->name : "";
     if (r->answer->main == CEDUO_UNCERTAINTY_EXCEED)
-        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"),
-                        place, c->x_given, ceduo_words_accepted(c));
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m: rocks of 1000 with more than %g kJ"), place,
+                        c->x_given, ceduo_words_accepted(c));
     else
-        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"), place, c->x_given);
+        ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m: kJ per released rock"), place, c->x_given);
     add_options(page, r, false, 0, SIZE_MAX);
     ceduo_uncertainty_warn_outside(r, ceduo_page_warn, page);
     size_t chosen = ceduo_uncertainty_advised_option(r);
@@ -491,9 +491,10 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change in plausible cases */
         LOCAL_TEXT(words);
         ceduo_uncertainty_light_words(&words, r, i / 3, i % 3);
-        if (words.length > 0)
-            ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s%s%s", several ? s->options[i / 3].name : "", several ? ": " : "",
-                            words.bytes);
+        if (words.length > 0 && several)
+            ceduo_page_para(page, CEDUO_PAGE_ITEM, "'%s': %s", s->options[i / 3].name, words.bytes);
+        else if (words.length > 0)
+            ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", words.bytes);
     }
     if (r->answer->rotation && all) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
@@ -554,14 +555,14 @@ static void add_input_bars(struct ceduo_page *page, const struct ceduo_uncertain
     if (lines < 2)
         return;
     CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_text_format(&page->last->cells[3].text, _("of %.3g wide"), (f->fit.p95 - f->fit.p5) * get_factor(r));
+    ceduo_text_format(&page->last->cells[3].text, _("width %.3g"), (f->fit.p95 - f->fit.p5) * get_factor(r));
     for (size_t i = 0, n = 1; f->fit.enough_points && i < f->uses && n < (size_t)lines; i++)
         if (f->fit.total[f->order[i]].value >= BAR_SHARE_MIN) {
             double share = ceduo_uncertainty_share(f, f->order[i]);
             ceduo_uncertainty_input_name(ceduo_page_text(page), r, f->order[i]);
             ceduo_page_bar(page, share, CEDUO_ROLE_MEAN);
             ceduo_page_cell_format(page, "%.0f %%", share * 100);
-            append_known_width(ceduo_page_text(page), f, f->order[i], _("leaves %s"));
+            append_known_width(ceduo_page_text(page), f, f->order[i], _("%s if known"));
             n++;
         }
 }

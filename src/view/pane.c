@@ -143,7 +143,7 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (pane->report->busy)
         ceduo_page_note(page, _("Refining \xe2\x80\xa6"));
     if (v->n > 1 && r->wooded && v->accepted && r->scene->blocks_count == 0)
-        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 bring too much."),
+        ceduo_page_para(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 rocks exceed the limit."),
                         CEDUO_EXCEED_MAX * 1000);
     if (v->rotation.known && !v->rotation.uneven)
         ceduo_words_year_numbering(ceduo_page_add(page, CEDUO_PAGE_NOTE), v->choices[0].rocks);

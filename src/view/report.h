@@ -323,6 +323,7 @@ struct ceduo_calibration_report {
     const struct ceduo_input *inputs; /* fitted values */
     uint64_t rocks;
     const struct ceduo_calibration *answer;
+    bool fix_named; /* the caller names the values to fix */
 };
 
 /* Append the name of a fitted value, "bounce Rn, talus"; its number in the display unit. */

@@ -200,7 +200,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
     if (r->warnings & CEDUO_WARN_DORREN_THIN)
         ceduo_words_format(
             sink, context,
-            _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overshoots there."),
+            _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overestimates there."),
             NAME_OF(belt));
     if (r->warnings & CEDUO_WARN_RATIO_ASSUMED)
         ceduo_words_format(sink, context, _("%s: no fracture ratio is published for this species; 1 is assumed."),
@@ -225,15 +225,15 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
         ceduo_words_format(
             sink, context,
             s->species < 0
-                ? ngettext("%s: no species is given, and no volume for %zu kind of stem (%.3g cm, %.3g m high); form "
+                ? ngettext("%s: no species is given, and no volume for %zu kind of stem (%.3g cm, %.3g m tall); form "
                            "factor 0.5 is assumed.",
                            "%s: no species is given, and no volume for %zu kinds of stem (the first %.3g cm, %.3g m "
-                           "high); form factor 0.5 is assumed.",
+                           "tall); form factor 0.5 is assumed.",
                            n)
-                : ngettext("%s: %zu kind of stem (%.3g cm, %.3g m high) lies outside the volumes that its species' "
-                           "equation was made from; the form factor at their edge is assumed.",
-                           "%s: %zu kinds of stem (the first %.3g cm, %.3g m high) lie outside the volumes that their "
-                           "species' equation was made from; the form factor at their edge is assumed.",
+                : ngettext("%s: %zu kind of stem (%.3g cm, %.3g m tall) lies outside the data of its species' volume equation; "
+                           "the form factor of the nearest size is assumed.",
+                           "%s: %zu kinds of stem (the first %.3g cm, %.3g m tall) lie outside the data of their "
+                           "species' volume equation; the form factor of the nearest size is assumed.",
                            n),
             NAME_OF(belt), n, first->dbh * 100, first->height);
     if (r->warnings & CEDUO_WARN_U_ASSUMED)
@@ -286,7 +286,7 @@ void ceduo_words_test(struct text *text, const struct ceduo_result *result, size
     if (thick[test] == lights[test])
         return;
     bool stems = test == 1 || isfinite(s->thick.worst_adc);
-    ceduo_text_append_joined(text, " ", _("Counting only stems from %g cm on it fails: %s%s."),
+    ceduo_text_append_joined(text, " ", _("It fails if only stems from %g cm on count: %s%s."),
                              fmax(counted, CEDUO_THICK_DBH) * 100,
                              !stems      ? _("no stems")
                              : test == 0 ? VS_LIMIT(s->thick.worst_adc, 3, limit)
@@ -311,7 +311,7 @@ void ceduo_words_thin_stems(const struct ceduo_result *r, ceduo_sentence_sink *s
         ceduo_text_cut(&options, 0);
     if (n > NAMED_MAX)
         ceduo_text_format(&options, _(" in %zu of %zu options"), n, r->options_count);
-    ceduo_words_format(sink, context, _("Counting only stems from %g cm on, contact or free run fails today%s."),
+    ceduo_words_format(sink, context, _("If only stems from %g cm on count, contact or free run fails today%s."),
                        CEDUO_THICK_DBH * 100, ceduo_text_string(&options));
 }
 

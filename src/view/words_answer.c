@@ -18,7 +18,7 @@ static const struct {
                   [CEDUO_NO] = {"no", N_("NO"), CEDUO_FAIL},
                   [CEDUO_NOT_DECIDED] = {"not-decided", N_("NOT DECIDED"), CEDUO_UNKNOWN},
                   [CEDUO_DEPENDS] = {"depends", N_("IT DEPENDS"), CEDUO_UNKNOWN},
-                  [CEDUO_CANNOT_JUDGE] = {"nothing", N_("NOTHING CAN BE SAID"), CEDUO_UNKNOWN}};
+                  [CEDUO_CANNOT_JUDGE] = {"nothing", N_("CANNOT BE ASSESSED"), CEDUO_UNKNOWN}};
 
 const char *ceduo_words_judgement(enum ceduo_judgement judgement)
 {
@@ -47,14 +47,28 @@ static void append_contradiction(struct text *text, const struct ceduo_arrivals 
                              _("Check roughness and friction of the ground, the law of impact and the profile."));
 }
 
+/* Append "none of 999 rocks arrives, even without forest". */
+static void append_arrivals(struct text *text, const struct ceduo_arrivals *bare)
+{
+    unsigned long long released = (unsigned long long)ceduo_rocks_released(bare),
+                       n = (unsigned long long)ceduo_rocks_reached(bare);
+    if (n == 0)
+        ceduo_text_format(text, _("none of %llu rocks arrives, even without forest"), released);
+    else
+        ceduo_text_format(text,
+                          ngettext("only %llu of %llu rocks arrives, even without forest",
+                                   "only %llu of %llu rocks arrive, even without forest", (unsigned long)n),
+                          n, released);
+}
+
 void ceduo_words_too_few_arrivals(struct text *text, const struct ceduo_result *r, size_t control)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     LOCAL_TEXT(place_name);
     ceduo_words_place(&place_name, &r->scene->controls[control]);
-    ceduo_text_format(text, _("The forest above %s cannot be assessed: of %llu rocks only %llu arrive even without it."),
-                      ceduo_text_string(&place_name), (unsigned long long)ceduo_rocks_released(bare),
-                      (unsigned long long)ceduo_rocks_reached(bare));
+    ceduo_text_format(text, _("The forest above %s cannot be assessed: "), ceduo_text_string(&place_name));
+    append_arrivals(text, bare);
+    ceduo_text_append_char(text, '.');
     /* start and reach of the rocks without forest */
     const struct ceduo_slope *s = &r->scene->slope;
     double start = r->scene->release.x.mean, falls = atan(ceduo_slope_fall(s, start)) * 180 / M_PI;
@@ -66,8 +80,10 @@ void ceduo_words_too_few_arrivals(struct text *text, const struct ceduo_result *
                              start + s->origin_x, fabs(falls));
     if (r->scene->release.x_assumed)
         ceduo_text_append_joined(text, " ", "%s", _("That is where the profile begins: release.x_m is not given."));
-    if (!isnan(distance))
-        ceduo_text_append_joined(text, " ", _("They come to rest within %s m of it."), SIG(distance < 0.05 ? 0 : distance, 2));
+    if (distance < 0.05)
+        ceduo_text_append_joined(text, " ", "%s", _("They do not move from there."));
+    else if (!isnan(distance))
+        ceduo_text_append_joined(text, " ", _("They come to rest within %s m of it."), SIG(distance, 2));
     if (falls < 0)
         ceduo_text_append_joined(text, " ", "%s", _("The profile may have been drawn upward."));
     /* remedy: an unreached face is probably the release area */
@@ -289,7 +305,7 @@ static void append_shares(struct text *text, const struct ceduo_measure *m, cons
     bool uncertain = !isnan(m->p5);
     if (length > MIDDLE)
         return;
-    ceduo_text_format(text, uncertain ? _("; may be %s") : _("; %s by the rocks"),
+    ceduo_text_format(text, uncertain ? _("; range %s") : _("; %s by sampling error"),
                       uncertain ? PLAUSIBLE_RANGE(*m) : SPAN(*m, m->lo, m->hi));
 }
 
@@ -307,9 +323,7 @@ static void append_reason(struct text *text, const struct ceduo_subject *s, size
             ceduo_text_append(text,
                               i < BRIEF ? _("more stems than a forest can hold: check the stand") : _("impossible stand"));
         else if (o->answer == CEDUO_CANNOT_JUDGE)
-            ceduo_text_format(text, _("of %llu rocks only %llu arrive, even without forest"),
-                              (unsigned long long)ceduo_rocks_released(s->bare),
-                              (unsigned long long)ceduo_rocks_reached(s->bare));
+            append_arrivals(text, s->bare);
         else if (!s->wooded && s->report->result->wooded)
             ceduo_text_append(text, _("not computed yet"));
         else if (!s->wooded && o->answer != CEDUO_YES)

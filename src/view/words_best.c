@@ -25,7 +25,7 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option)
     if (kind == CEDUO_WINDOW_AHEAD)
         ceduo_text_format(text, _("'%s' grows and is never cut."), NAME_OF(option));
     else if (kind == CEDUO_WINDOW_CONSTANT && !standing)
-        ceduo_text_format(text, _("'%s' does not change: no stem stands in it."), NAME_OF(option));
+        ceduo_text_format(text, _("'%s' does not change: it has no stems."), NAME_OF(option));
     else if (kind == CEDUO_WINDOW_CONSTANT)
         ceduo_text_format(text, _("'%s' does not change: stand '%s' has no growth and cutting data."), NAME_OF(option),
                           NAME_OF(standing));
@@ -56,7 +56,7 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
     else if (!s.nothing)
         ceduo_text_append_joined(text, " ", _("the ADC is largest in year %u."), s.worst_year);
     if (s.nothing)
-        ceduo_text_append_joined(text, " ", "%s", _("The forest cannot be assessed: no rock arrives, even without it."));
+        ceduo_text_append_joined(text, " ", "%s", _("The forest cannot be assessed: no rock arrives, even without forest."));
     else if (s.simulated > 0 && has_energy)
         ceduo_text_append_joined(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."),
                                  s.unprotected_energy, s.unprotected_contact, s.unprotected_free_run, s.years);
@@ -64,19 +64,19 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
         ceduo_text_append_joined(text, " ", _("Years that fail: contact %zu, free run %zu of %zu."), s.unprotected_contact,
                                  s.unprotected_free_run, s.years);
     if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
-        ceduo_text_append_joined(text, " ", _("From %g cm on: contact %zu, free run %zu."), CEDUO_THICK_DBH * 100,
-                                 s.thick_contact, s.thick_free_run);
+        ceduo_text_append_joined(text, " ", _("If only stems from %g cm on count: contact %zu, free run %zu."),
+                                 CEDUO_THICK_DBH * 100, s.thick_contact, s.thick_free_run);
     if (!isnan(s.passes_per_year) && !isnan(s.exceeds_per_year))
-        ceduo_text_append_joined(text, " ", _("Expected a year: %s pass, %s with too much."), SIG(s.passes_per_year, 2),
-                                 SIG(s.exceeds_per_year, 2));
+        ceduo_text_append_joined(text, " ", _("Expected per year: %s rocks pass, %s with too much energy."),
+                                 SIG(s.passes_per_year, 2), SIG(s.exceeds_per_year, 2));
     else if (!isnan(s.passes_per_year))
-        ceduo_text_append_joined(text, " ", _("Expected a year: %s pass."), SIG(s.passes_per_year, 2));
+        ceduo_text_append_joined(text, " ", _("Expected per year: %s rocks pass."), SIG(s.passes_per_year, 2));
 }
 
 void ceduo_words_year_numbering(struct text *text, uint64_t rocks)
 {
     if (rocks > 0)
-        ceduo_text_format(text, _("Years are counted from today, with %llu rocks in each; the worst is the worst of these."),
+        ceduo_text_format(text, _("Years are counted from today, with %llu rocks in each; the worst is that of these years."),
                           (unsigned long long)rocks);
     else
         ceduo_text_append(text, _("Years are counted from today."));
@@ -140,7 +140,7 @@ static void append_best(struct text *text, const struct ceduo_scene *scene, cons
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
 {
     if (v->too_few_arrivals)
-        ceduo_text_append(text, _("The forest cannot be assessed: no rock arrives, even without it."));
+        ceduo_text_append(text, _("The forest cannot be assessed: no rock arrives, even without forest."));
     LOCAL_TEXT(period);
     ceduo_text_format(&period, _("In years %u to %u"), get_window(v)->first, get_window(v)->last);
     const char *period_name = period.bytes;
@@ -178,17 +178,15 @@ void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r
         ceduo_text_format(text, _("With the energy law %s no rock arrives."), law);
         return;
     }
-    const char *mean = SIG(energy.value, 3), *half_width = SIG(energy.half_width, 2),
-               *reach = INTERVAL(ceduo_measure_arriving(a));
+    const char *mean = WITH_ERROR(energy, " "), *reach = INTERVAL(ceduo_measure_arriving(a));
     const struct ceduo_control *c = &r->scene->controls[control];
     if (isnan(c->accepted))
-        ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
-                          mean, half_width);
+        ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s kJ."), law, reach, mean);
     else
         ceduo_text_format(text,
                           _("With the energy law %s: %s of 1000 arrive, %s with more than the accepted energy; their mean is "
-                            "%s \xc2\xb1%s kJ."),
-                          law, reach, INTERVAL(ceduo_measure_exceeding(c, a)), mean, half_width);
+                            "%s kJ."),
+                          law, reach, INTERVAL(ceduo_measure_exceeding(c, a)), mean);
     if (ceduo_rocks_released(a) < ceduo_result_rocks(r))
         ceduo_text_append_joined(text, " ", _("Under this law the first %llu rocks alone were simulated."),
                                  (unsigned long long)ceduo_rocks_released(a));

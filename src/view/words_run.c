@@ -87,7 +87,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
         }
         if (fewest < CEDUO_ARRIVALS_MIN)
             ceduo_words_format(sink, context,
-                               _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
+                               _("At %g m only %llu rocks arrive: the mean energy there was left out of the tolerance."),
                                result->scene->controls[i].x_given, (unsigned long long)fewest);
     }
     warn_ground(result, sink, context);
@@ -115,11 +115,9 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
             if (!ceduo_is_close_call(a))
                 continue;
             if (result->scene->blocks_count > 0)
-                ceduo_words_format(sink, context,
-                                   _("%s, %g m: too close to call if a rock above the limit arrives at most once in %g years "
-                                     "today; simulate more rocks."),
-                                   NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given,
-                                   ceduo_accepted_return(control));
+                ceduo_words_format(
+                    sink, context, _("%s, %g m: too close to the limit of one rock in %g years today; simulate more rocks."),
+                    NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, ceduo_accepted_return(control));
             else
                 ceduo_words_format(
                     sink, context,
@@ -128,5 +126,5 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
         }
     warn_lost(result, sink, context);
     if (remarks->ground_assumed)
-        ceduo_words_format(sink, context, _("The slope's file says no ground: talus is assumed everywhere."));
+        ceduo_words_format(sink, context, _("The slope file gives no ground: talus is assumed everywhere."));
 }

@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether a calibration may be trusted, on sites whose ground is known (quarry_site.h): the 95 % ranges must hold the truth in
- * 95 % of the sites, p must be uniform, and what another law made must be found out.
+/* Check calibrations on sites with known ground (quarry_site.h): 95 % ranges must contain the truth at 95 % of the sites, p must
+ * be uniform, and a misfit must be reported for observations made by another law.
  *
  *     bench_calibration [SITES [FIRST [ROCKS]]]
  *
- * prints CSV, a row a fit as soon as it is there, so that a run that is cut off counts as well and several may share the sites:
- * their rows together are the result. Where the law crsp made what was seen, chains are cut at CUT steps: they seldom settle on
- * what cannot be, and a misfit shows before. */
+ * Prints CSV, one row after each fit: rows of an interrupted run are valid, and several runs can share the sites. If the law
+ * crsp made the observations, chains stop at STEPS_MAX_CRSP steps: they rarely converge, and the misfit appears before. */
 #include <stdio.h>
 
 #include "frame.h"
 #include "physics/quarry_site.h"
 
-#define VALUES 3
-#define CUT    250
+#define VALUES         3
+#define STEPS_MAX_CRSP 250
 
-static void try_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint64_t rocks)
+static void fit_site(size_t number, enum ceduo_law made_by, uint64_t observed, uint64_t rocks)
 {
     struct ceduo_calibration a;
     double truth[QUARRY_VALUES_MAX], start = processor_s();
@@ -23,13 +22,13 @@ static void try_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint6
                                  .values = VALUES,
                                  .kinds = QUARRY_KINDS,
                                  .made_by = made_by,
-                                 .seen = seen,
+                                 .observed = observed,
                                  .rocks = rocks,
-                                 .steps_max = made_by == CEDUO_LAW_LUMPED ? 0 : CUT};
-    if (!quarry_try(&trial, truth, &a))
+                                 .steps_max = made_by == CEDUO_LAW_LUMPED ? 0 : STEPS_MAX_CRSP};
+    if (!quarry_fit(&trial, truth, &a))
         return;
     printf("%zu,%s,%llu,%llu,%llu,%.1f,%d,%.0f", number, made_by == CEDUO_LAW_LUMPED ? "lumped" : "crsp",
-           (unsigned long long)seen, (unsigned long long)rocks, (unsigned long long)a.evaluations, processor_s() - start,
+           (unsigned long long)observed, (unsigned long long)rocks, (unsigned long long)a.evaluations, processor_s() - start,
            a.converged, a.effective_size);
     printf(",%d,%.4f,%.4f,%.4f", a.misfit, a.predicted[0].p_value, a.predicted[1].p_value, a.predicted[2].p_value);
     for (size_t i = 0; i < VALUES; i++)
@@ -49,8 +48,8 @@ int main(int argc, char **argv)
         printf(",%s,%s_lo,%s_hi,%s_determined", quarry_names[i], quarry_names[i], quarry_names[i], quarry_names[i]);
     printf("\n");
     for (size_t i = first; i < first + sites; i++) {
-        try_site(i, CEDUO_LAW_LUMPED, 50, rocks);
-        try_site(i, CEDUO_LAW_CRSP, 200, rocks);
+        fit_site(i, CEDUO_LAW_LUMPED, 50, rocks);
+        fit_site(i, CEDUO_LAW_CRSP, 200, rocks);
     }
     return 0;
 }

@@ -65,14 +65,14 @@ static double run_core(struct paper_site *site, bool stems, uint64_t rocks, uint
     return seconds;
 }
 
-static void print_row(const char *what, const char *numbers, uint64_t rocks, const struct row *row,
+static void print_row(const char *label, const char *numbers, uint64_t rocks, const struct row *row,
                       const double true_se[QUANTITIES], const struct row *plain)
 {
     for (int q = 0; q < QUANTITIES; q++) {
         double rms = sqrt(row->error2[q] / (double)row->repeats);
         if (!(rms >= 2 * true_se[q]))
             continue;
-        printf("%s,%s,%" PRIu64 ",%zu,%.3g,%s,%.4g,", what, numbers, rocks, row->repeats, row->seconds / (double)row->repeats,
+        printf("%s,%s,%" PRIu64 ",%zu,%.3g,%s,%.4g,", label, numbers, rocks, row->repeats, row->seconds / (double)row->repeats,
                quantity_names[q], rms);
         if (!isnan(row->se[q]))
             printf("%.4g", row->se[q] / (double)row->repeats);
@@ -85,7 +85,7 @@ static void print_row(const char *what, const char *numbers, uint64_t rocks, con
     fflush(stdout);
 }
 
-static void measure_core(const char *what, bool stems, size_t asked, uint64_t max)
+static void measure_core(const char *label, bool stems, size_t asked, uint64_t max)
 {
     struct paper_site site;
     paper_site_init(&site);
@@ -102,7 +102,7 @@ static void measure_core(const char *what, bool stems, size_t asked, uint64_t ma
                 row.se[q] += se[q];
             }
         }
-        print_row(what, "core", rocks, &row, true_se, NULL);
+        print_row(label, "core", rocks, &row, true_se, NULL);
     }
 }
 
@@ -173,9 +173,9 @@ static double run_plain(const struct paper_site *site, struct slow_def def, stru
     double start = ceduo_clock();
     for (uint64_t rock = 0; rock < rocks; rock++) {
         begin(s, rock, &def);
-        const struct slow_way way = slow_walk(&def);
-        if (way.crossing.reached)
-            sum += s->energies[s->n++] = plain_energy(&body, &way.crossing);
+        const struct slow_trajectory trajectory = slow_walk(&def);
+        if (trajectory.crossing.reached)
+            sum += s->energies[s->n++] = plain_energy(&body, &trajectory.crossing);
     }
     double seconds = ceduo_clock() - start;
     size_t exceeded = 0;
@@ -190,7 +190,7 @@ static double run_plain(const struct paper_site *site, struct slow_def def, stru
     return seconds;
 }
 
-static void measure_numbers(const char *what, bool spread, size_t asked)
+static void measure_numbers(const char *label, bool spread, size_t asked)
 {
     struct paper_site site;
     struct slow_segment segments[PAPER_SEGMENTS];
@@ -218,7 +218,7 @@ static void measure_numbers(const char *what, bool spread, size_t asked)
                 }
             }
         for (int k = 0; k < NUMBERS; k++)
-            print_row(what, numbers_names[k], rocks, &rows[k], true_se, &rows[PLAIN]);
+            print_row(label, numbers_names[k], rocks, &rows[k], true_se, &rows[PLAIN]);
     }
     gsl_qrng_free(source.sobol);
 }

@@ -19,10 +19,10 @@ int main(int argc, char **argv)
         struct ceduo_calibration a;
         double truth[QUARRY_VALUES_MAX], start = ceduo_clock(), processor = processor_s();
         struct quarry_trial trial = {
-            .number = i, .values = 4, .kinds = 1, .seen = 48, .rocks = CEDUO_CALIBRATION_ROCKS, .threads = 2};
-        if (!quarry_try(&trial, truth, &a))
+            .number = i, .values = 4, .kinds = 1, .observed = 48, .rocks = CEDUO_CALIBRATION_ROCKS, .threads = 2};
+        if (!quarry_fit(&trial, truth, &a))
             continue;
-        printf("%zu,%zu,%llu,%llu,%llu,%d,%.0f,%.1f,%.1f\n", i, trial.values, (unsigned long long)trial.seen,
+        printf("%zu,%zu,%llu,%llu,%llu,%d,%.0f,%.1f,%.1f\n", i, trial.values, (unsigned long long)trial.observed,
                (unsigned long long)trial.rocks, (unsigned long long)a.evaluations, a.converged, a.effective_size,
                processor_s() - processor, ceduo_clock() - start);
         fflush(stdout);

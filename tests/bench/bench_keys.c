@@ -84,7 +84,7 @@ static void edit(struct hand *h)
         press(h, i % 2 ? '-' : '+', true);
 }
 
-static void measure(struct hand *h, const char *scene, const char *what, void (*play)(struct hand *h))
+static void measure(struct hand *h, const char *scene, const char *label, void (*play)(struct hand *h))
 {
     h->n = 0;
     for (int i = 0; i < 5; i++) {
@@ -92,7 +92,7 @@ static void measure(struct hand *h, const char *scene, const char *what, void (*
         play(h);
     }
     qsort(h->ms, h->n, sizeof h->ms[0], by_value);
-    printf("%s,%s,%zu,%.2f,%.2f,%.2f\n", scene, what, h->n, h->ms[h->n / 2], h->ms[h->n * 99 / 100], h->ms[h->n - 1]);
+    printf("%s,%s,%zu,%.2f,%.2f,%.2f\n", scene, label, h->n, h->ms[h->n / 2], h->ms[h->n * 99 / 100], h->ms[h->n - 1]);
     fflush(stdout);
 }
 

@@ -13,10 +13,10 @@
 
 #define EDITS_MAX 10000
 
-static void report(const char *what, double *ms, size_t n, double goal_median, double goal_p99)
+static void report(const char *label, double *ms, size_t n, double goal_median, double goal_p99)
 {
     qsort(ms, n, sizeof *ms, by_value);
-    printf("%s,%zu,%.3f,%.3f,%g,%g\n", what, n, ms[n / 2], ms[(n * 99) / 100], goal_median, goal_p99);
+    printf("%s,%zu,%.3f,%.3f,%g,%g\n", label, n, ms[n / 2], ms[(n * 99) / 100], goal_median, goal_p99);
 }
 
 /* Wait until the drawn figures rest on at least `rocks` rocks. */

@@ -28,7 +28,7 @@ static const uint64_t marks[] = {1, 5, 10, 20, 40};
 struct track {
     double x[CONTACTS + 1], z[CONTACTS + 1];
     uint64_t contacts;
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     struct ceduo_crossing crossing;
 };
 
@@ -50,8 +50,8 @@ static void simulate(struct ceduo_tracer *f, uint64_t rock, int mode, struct tra
 {
     t->contacts = 0;
     fesetround(mode);
-    enum ceduo_status status =
-        ceduo_tracer_run(f, rock, &(struct ceduo_trajectory_callbacks){.segment = note, .context = t}, &t->way, &t->crossing);
+    enum ceduo_status status = ceduo_tracer_run(f, rock, &(struct ceduo_trajectory_callbacks){.segment = note, .context = t},
+                                                &t->trajectory, &t->crossing);
     fesetround(FE_TONEAREST);
     if (status != CEDUO_OK)
         fail("no memory");
@@ -91,7 +91,7 @@ static void compare(const char *name, const struct paper_site *site, const char 
         for (int k = 0; k < 2; k++) {
             simulate(f, rock, k == 0 ? FE_TONEAREST : mode, &t[k]);
             const struct ceduo_crossing *c = &t[k].crossing;
-            mass = t[k].way.rock.mass;
+            mass = t[k].trajectory.rock.mass;
             if (c->reached) {
                 add(&speed[k], hypot(c->vx, c->vz));
                 add(&energy[k], mass * (c->vx * c->vx + c->vz * c->vz) / 2e3);
@@ -100,7 +100,7 @@ static void compare(const char *name, const struct paper_site *site, const char 
         for (size_t i = 0; i < MARKS; i++)
             if (t[0].contacts >= marks[i] && t[1].contacts >= marks[i])
                 distance[i][many[i]++] = hypot(t[0].x[marks[i]] - t[1].x[marks[i]], t[0].z[marks[i]] - t[1].z[marks[i]]);
-        ends_apart += hypot(t[0].way.x - t[1].way.x, t[0].way.z - t[1].way.z) > 1e-3;
+        ends_apart += hypot(t[0].trajectory.x - t[1].trajectory.x, t[0].trajectory.z - t[1].trajectory.z) > 1e-3;
     }
     printf("%s,%s,%" PRIu64, name, mode_name, rocks);
     for (size_t i = 0; i < MARKS; i++) {

@@ -8,7 +8,7 @@
 #include "frame.h"
 
 struct kind {
-    const char *what;
+    const char *label;
     enum ceduo_contact_model model;
     uint64_t contacts;
     struct ceduo_stem_counts stems;
@@ -33,7 +33,7 @@ static void measure(const char *path, size_t repeats, uint64_t rocks)
 {
     struct scene_file file;
     read_scene(&file, path);
-    struct kind kinds[] = {{.what = "bare", .model = CEDUO_INDEX}, {.what = "stems", .model = CEDUO_STEMS}};
+    struct kind kinds[] = {{.label = "bare", .model = CEDUO_INDEX}, {.label = "stems", .model = CEDUO_STEMS}};
     size_t n = sizeof kinds / sizeof kinds[0];
     for (size_t r = 0; r < repeats; r++)
         for (size_t k = 0; k < n; k++)
@@ -43,8 +43,9 @@ static void measure(const char *path, size_t repeats, uint64_t rocks)
         double seconds = median(kinds[k].seconds, repeats);
         double rate = (double)(kinds[k].contacts + kinds[k].stems.met) / seconds;
         bare = k == 0 ? rate : bare;
-        printf("%s,%s,%" PRIu64 ",%.4f,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.0f,%.3f\n", path, kinds[k].what, rocks,
-               seconds, kinds[k].contacts, kinds[k].stems.met, kinds[k].stems.hit, kinds[k].stems.drawn, rate, rate / bare);
+        printf("%s,%s,%" PRIu64 ",%.4f,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.0f,%.3f\n", path, kinds[k].label,
+               rocks, seconds, kinds[k].contacts, kinds[k].stems.met, kinds[k].stems.hit, kinds[k].stems.drawn, rate,
+               rate / bare);
     }
     ceduo_scene_release(&file);
 }

@@ -125,7 +125,7 @@ static double step_gsl(const struct ground *g, const struct launch *l, double to
     return result;
 }
 
-static void measure(const struct ground *g, const struct launch *launches, size_t n, const char *what, double step,
+static void measure(const struct ground *g, const struct launch *launches, size_t n, const char *label, double step,
                     double (*contact)(const struct ground *, const struct launch *, double))
 {
     double sum2 = 0, max = 0, start = processor_s();
@@ -141,7 +141,8 @@ static void measure(const struct ground *g, const struct launch *launches, size_
         max = fmax(max, off);
     }
     double seconds = processor_s() - start;
-    printf("%s,%g,%zu,%.3g,%.3g,%.3g,%zu\n", what, step, n, seconds / (double)n * 1e9, sqrt(sum2 / (double)close), max, missed);
+    printf("%s,%g,%zu,%.3g,%.3g,%.3g,%zu\n", label, step, n, seconds / (double)n * 1e9, sqrt(sum2 / (double)close), max,
+           missed);
     fflush(stdout);
 }
 

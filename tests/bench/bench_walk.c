@@ -35,7 +35,7 @@ struct site {
 
 /* One row of the table. */
 struct measure {
-    const char *what;
+    const char *label;
     unsigned threads;
     enum ceduo_kernel kernel;
     uint64_t rocks;
@@ -66,13 +66,14 @@ static double time_plain(struct site *site, uint64_t rocks, size_t repeat)
     site->plain.context = &random;
     double start = ceduo_clock();
     for (uint64_t i = 0; i < rocks; i++) {
-        const struct slow_way way = slow_walk(&site->plain);
+        const struct slow_trajectory trajectory = slow_walk(&site->plain);
         sums->rocks++;
-        sums->contacts += way.contacts;
-        sums->contacts2 += (double)(way.contacts * way.contacts);
-        if (!way.crossing.reached)
+        sums->contacts += trajectory.contacts;
+        sums->contacts2 += (double)(trajectory.contacts * trajectory.contacts);
+        if (!trajectory.crossing.reached)
             continue;
-        double speed = hypot(way.crossing.vx, way.crossing.vz), energy = plain_energy(&rock, &way.crossing);
+        double speed = hypot(trajectory.crossing.vx, trajectory.crossing.vz),
+               energy = plain_energy(&rock, &trajectory.crossing);
         sums->passed++;
         sums->speed += speed;
         sums->speed2 += speed * speed;
@@ -97,9 +98,9 @@ static double time_core(const struct site *site, struct measure *m)
     return seconds;
 }
 
-static void print_line(const struct site *site, const char *what, uint64_t rocks, double seconds, double rate)
+static void print_line(const struct site *site, const char *label, uint64_t rocks, double seconds, double rate)
 {
-    printf("%s,%s,against,%s,%" PRIu64 ",%.4f,%.0f,%.3f\n", what, site->law, site->roughness, rocks, seconds, rate,
+    printf("%s,%s,against,%s,%" PRIu64 ",%.4f,%.0f,%.3f\n", label, site->law, site->roughness, rocks, seconds, rate,
            rate / site->plain_rate);
     fflush(stdout);
 }
@@ -113,12 +114,12 @@ static void compute_mean(double sum, double sum2, double n, double *mean, double
     *se = sqrt((sum2 / n - *mean * *mean) / (n - 1));
 }
 
-static bool agrees(const struct site *site, const char *what, double plain, double plain_se, double core, double core_se)
+static bool agrees(const struct site *site, const char *label, double plain, double plain_se, double core, double core_se)
 {
-    double off = fabs(plain - core) / hypot(plain_se, core_se);
-    bool good = off <= AGREE;
-    fprintf(stderr, "%s %s %-17s plain %10.4f  ceduo %10.4f  apart %.1f standard errors%s\n", site->law, site->roughness, what,
-            plain, core, off, good ? "" : ": DISAGREE");
+    double errors_apart = fabs(plain - core) / hypot(plain_se, core_se);
+    bool good = errors_apart <= AGREE;
+    fprintf(stderr, "%s %s %-17s plain %10.4f  ceduo %10.4f  apart %.1f standard errors%s\n", site->law, site->roughness, label,
+            plain, core, errors_apart, good ? "" : ": DISAGREE");
     return good;
 }
 
@@ -144,10 +145,10 @@ static bool check_agreement(const struct site *site, const struct measure *m)
 static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
 {
     struct measure core[] = {
-        {.what = "ceduo-1-thread-scalar", .threads = 1, .kernel = CEDUO_KERNEL_SCALAR, .rocks = rocks},
-        {.what = "ceduo-1-thread-avx2", .threads = 1, .kernel = CEDUO_KERNEL_AVX2, .rocks = rocks},
-        {.what = "ceduo-1-thread", .threads = 1, .rocks = rocks},
-        {.what = "ceduo-2-threads", .threads = 2, .rocks = rocks},
+        {.label = "ceduo-1-thread-scalar", .threads = 1, .kernel = CEDUO_KERNEL_SCALAR, .rocks = rocks},
+        {.label = "ceduo-1-thread-avx2", .threads = 1, .kernel = CEDUO_KERNEL_AVX2, .rocks = rocks},
+        {.label = "ceduo-1-thread", .threads = 1, .rocks = rocks},
+        {.label = "ceduo-2-threads", .threads = 2, .rocks = rocks},
     };
     size_t n = sizeof core / sizeof core[0];
     double plain[REPEATS_MAX];
@@ -162,7 +163,7 @@ static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
     print_line(site, "plain-loop", rocks, seconds, site->plain_rate);
     for (size_t c = 0; c < n; c++) {
         seconds = median(core[c].seconds, repeats);
-        print_line(site, core[c].what, rocks, seconds, (double)core[c].contacts / seconds);
+        print_line(site, core[c].label, rocks, seconds, (double)core[c].contacts / seconds);
     }
     bool equal = true;
     for (size_t c = 1; c < n; c++)
@@ -173,11 +174,11 @@ static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
 
 static void measure_many(const struct site *site, size_t repeats)
 {
-    struct measure m = {.what = "ceduo-2-threads", .threads = 2, .rocks = MANY_ROCKS};
+    struct measure m = {.label = "ceduo-2-threads", .threads = 2, .rocks = MANY_ROCKS};
     for (size_t i = 0; i < repeats; i++)
         m.seconds[i] = time_core(site, &m);
     double seconds = median(m.seconds, repeats);
-    print_line(site, m.what, MANY_ROCKS, seconds, (double)m.contacts / seconds);
+    print_line(site, m.label, MANY_ROCKS, seconds, (double)m.contacts / seconds);
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     fprintf(stderr, "peak memory with %d rocks: %.1f MiB\n", MANY_ROCKS, (double)usage.ru_maxrss / 1024);

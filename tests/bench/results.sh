@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs benches and keeps what they find in tests/bench/results, and in made.csv there when, of which commit and on what machine.
+# Runs benches and stores their tables in tests/bench/results. made.csv there records date, commit and machine of each.
 #
-#   results.sh BENCH...         each prints CSV; exit 1 where one of them failed: its table is shown and not kept
+#   results.sh BENCH...         each prints CSV; exit 1 if one fails: its table is printed and not stored
 #
-# ONLY in the environment: names of benches, with or without bench_; errors: those whose tables do not depend on how much else
-# the machine does; times: the others, for a quiet machine. CC names the compiler.
+# ONLY in the environment: names of benches, with or without bench_; errors: benches with tables that do not depend on the load of
+# the machine; times: the others, for an idle machine. CC names the compiler.
 errors=" bench_calibration bench_coverage bench_uncertainty_error bench_ground bench_rounding bench_tschamut bench_verdict "
 
 is_wanted() { # name
@@ -20,7 +20,7 @@ is_wanted() { # name
     return 1
 }
 
-for bench; do # paths are from where it was started
+for bench; do # paths are relative to the first folder
     case $bench in
     /*) ;;
     *) bench=$PWD/$bench ;;
@@ -31,14 +31,14 @@ done
 cd "$(dirname "$0")" || exit 1
 mkdir -p results || exit 1
 
-# What tells one machine's figures from another's, and nothing of whose machine it is.
+# Describes the machine, but not its owner.
 commit=$(git rev-parse --short=12 HEAD 2>/dev/null)
 [ -z "$(git status --porcelain -uno -- . ':!results' ../../src ../../include ../../Makefile 2>/dev/null)" ] ||
     commit="$commit changed"
 machine=$(printf '%s,' "$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1 | tr -d ',')" "$(nproc)" \
     "$(${CC:-gcc} --version | head -n 1 | tr -d ',')" "$(uname -s) $(uname -r | sed 's/-.*//') $(uname -m)")
 
-note() { # name: made now
+note() { # name: record it as made now
     {
         echo "bench,date,commit,processor,cores,compiler,kernel"
         { [ ! -f results/made.csv ] || sed 1d results/made.csv | grep -v "^$1,"
@@ -53,7 +53,7 @@ for bench; do
     name=${name%.*}
     is_wanted "$name" || continue
     echo "== $name"
-    (cd ../.. && "$bench") >"results/$name.new" # scenes are named from there
+    (cd ../.. && "$bench") >"results/$name.new" # paths of scenes are relative to it
     status=$?
     cat "results/$name.new"
     if [ $status = 0 ]; then

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes what the benches found into pages, between their marks .\\" begin NAME and .\\" end NAME, in README as comments.
+"""Write the results of the benches into pages, between their marks .\\" begin NAME and .\\" end NAME, in README as comments.
 
-    tables.py [--check] PAGE...         of tests/bench/results; --check writes nothing, and fails where something is stale"""
+    tables.py [--check] PAGE...         reads tests/bench/results; --check writes nothing, and fails if a page is stale"""
 import csv
 import math
 import re

@@ -69,24 +69,24 @@ static bool record_fault(void)
 
 /* ---- call paths of allocations ---- */
 
-#define WAYS_MAX   (1 << 20)
-#define WAY_FRAMES 16
+#define PATHS_MAX   (1 << 20)
+#define PATH_FRAMES 16
 
-static unsigned long ways[WAYS_MAX];
+static unsigned long call_paths[PATHS_MAX];
 
-struct way {
+struct call_path {
     unsigned long hash;
     int frames;
 };
 
 static _Unwind_Reason_Code add_frame(struct _Unwind_Context *context, void *to)
 {
-    struct way *way = to;
-    way->hash = (way->hash ^ _Unwind_GetIP(context)) * 0x100000001b3u;
-    return ++way->frames < WAY_FRAMES ? _URC_NO_REASON : _URC_END_OF_STACK;
+    struct call_path *call_path = to;
+    call_path->hash = (call_path->hash ^ _Unwind_GetIP(context)) * 0x100000001b3u;
+    return ++call_path->frames < PATH_FRAMES ? _URC_NO_REASON : _URC_END_OF_STACK;
 }
 
-static void note_way(void)
+static void record_call_path(void)
 {
     static _Thread_local bool busy;
     if (busy)
@@ -94,20 +94,20 @@ static void note_way(void)
     busy = true;
     record_fault();
     unsigned long n = atomic_load(&count);
-    struct way way = {0xcbf29ce484222325u, 0};
-    _Unwind_Backtrace(add_frame, &way);
-    if (!atomic_load(&waits) && n < WAYS_MAX)
-        ways[n] = way.hash;
+    struct call_path call_path = {0xcbf29ce484222325u, 0};
+    _Unwind_Backtrace(add_frame, &call_path);
+    if (!atomic_load(&waits) && n < PATHS_MAX)
+        call_paths[n] = call_path.hash;
     busy = false;
 }
 
-static void print_ways(void)
+static void print_call_paths(void)
 {
     FILE *file = fault == WAYS ? fopen(getenv("FAULT_WAYS"), "w") : NULL;
     unsigned long n = atomic_load(&count);
     fault = NOTHING;
-    for (unsigned long i = 1; file && i <= n && i < WAYS_MAX; i++)
-        fprintf(file, "%lx\n", ways[i]);
+    for (unsigned long i = 1; file && i <= n && i < PATHS_MAX; i++)
+        fprintf(file, "%lx\n", call_paths[i]);
     if (file)
         fclose(file);
 }
@@ -115,7 +115,7 @@ static void print_ways(void)
 static bool no_memory(void)
 {
     if (fault == WAYS)
-        note_way();
+        record_call_path();
     if (fault != MEMORY || !record_fault())
         return false;
     errno = ENOMEM;
@@ -225,7 +225,7 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
 
 static void end_faults(void)
 {
-    print_ways();
+    print_call_paths();
     fault = NOTHING;
 }
 

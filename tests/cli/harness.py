@@ -97,22 +97,22 @@ def validator():
     return jsonschema.Draft202012Validator
 
 
-def parts_of(value, path=""):
+def describe_parts(value, path=""):
     """Return each place of an answer with its keys, its word, or the kind of its value."""
     if isinstance(value, dict):
         yield path, tuple(value)
         for key, inner in value.items():
-            yield from parts_of(inner, f"{path}.{key}")
+            yield from describe_parts(inner, f"{path}.{key}")
     elif isinstance(value, list):
         for inner in value:
-            yield from parts_of(inner, path)
+            yield from describe_parts(inner, path)
     else:
         yield path, value if isinstance(value, str) and value.isalpha() else float if type(value) is int else type(value)
 
 
 def expect_schema(answer):
     """Expect JSON to match --schema. Validation is slow: `make check` validates only answers with a new part."""
-    name, parts = answer["format"], {(answer["format"], *part) for part in parts_of(answer)}
+    name, parts = answer["format"], {(answer["format"], *part) for part in describe_parts(answer)}
     if VALID >= parts and not FULL:
         return
     VALID.update(parts)
@@ -287,7 +287,7 @@ def belt(from_m, to_m, **changes):
     return {"from_m": from_m, "to_m": to_m, "stand": stand(**changes)}
 
 
-def of_today(option):
+def option_today(option):
     """Return an option of JSON without its years, their window and the answer over them."""
     controls = [{**c, "verdict": {"today": c["verdict"]["today"]}} for c in option["controls"]]
     return {**option, "controls": controls, "years": None, "rotation": None, "window": None}
@@ -331,7 +331,7 @@ class Suite:
         sys.exit(1 if self.failed else 0)
 
 
-def tests_of(module):
+def list_tests(module):
     """Return the functions test_… of a module in source order."""
     found = [f for name, f in vars(module).items() if name.startswith("test_") and callable(f)]
     return sorted(found, key=lambda f: f.__code__.co_firstlineno)
@@ -340,5 +340,5 @@ def tests_of(module):
 def run_all(name):
     """Run all tests of the module of that name, and end the program."""
     suite = Suite()
-    suite.run(tests_of(sys.modules[name]))
+    suite.run(list_tests(sys.modules[name]))
     suite.end()

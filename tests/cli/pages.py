@@ -36,7 +36,7 @@ def digits(value, n):
     return f"{value:.{decimals}f}"
 
 
-def of_1000(lo_name, arrivals):
+def share_per_1000(lo_name, arrivals):
     """Return '991 (984–995)' as on the page."""
     share, lo, hi = (arrivals[f"{lo_name}_{k}"] for k in ("probability", "lo", "hi"))
     return "-" if share is None else f"{share * 1000:.0f} ({math.floor(lo * 1000)}–{math.ceil(hi * 1000)})"
@@ -66,7 +66,7 @@ CELL = r"(-|none|[^ (]+(?: \([^()]+\))?)"
 SIDES = {"with forest": "wooded", "without forest": "bare"}
 
 
-def arrivals_of(text):
+def parse_arrivals(text):
     """Return the tables of arrivals, in order: [{"wooded" or "bare": {name of a row: cell}}]."""
     tables, sides = [], []
     for line in text.splitlines():
@@ -121,15 +121,15 @@ def expect_mean(cell, figure, count, what):
 
 
 def expect_arrivals(rows, arrivals):
-    """What a table says of one side is what the JSON of the same run holds."""
+    """Compare one side of a table with the JSON of the same run."""
     named = {re.sub(r"^(arrive with more than|above) .* kJ$", "exceed", name): cell for name, cell in rows.items()}
-    expect_equal((named.get("exceed", "-"), named["arrive"]), (of_1000("exceed", arrivals), of_1000("reach", arrivals)), rows)
+    expect_equal((named.get("exceed", "-"), named["arrive"]), (share_per_1000("exceed", arrivals), share_per_1000("reach", arrivals)), rows)
     expect_mean(named.get("mean energy of those that arrive, kJ", "-"), arrivals["energy_kJ"], arrivals["rocks_reached"], rows)
     expect_mean(named.get("mean speed of those that arrive, m/s", "-"), arrivals["speed_m_s"], arrivals["rocks_reached"], rows)
     p95 = arrivals["energy_kJ"]["p95"]
     expect_equal(named.get("95 % stay below, kJ", "-"), digits(p95, 3) if p95 is None or p95 < 1e9 else named["95 % stay below, kJ"], rows)
     expect(re.split("[ \u00b1]", named["energy per released rock, kJ"])[0] == digits(arrivals["energy_per_released_kJ"]["mean"], 3), "kJ a rock", rows)
-    ways = (("stopped by stems before", "stopped_by_stems"), ("at rest before", "came_to_rest"), ("left the slope before", "left_slope"))
+    ways = (("stopped by stems before it", "stopped_by_stems"), ("at rest before it", "came_to_rest"), ("left the slope before it", "left_slope"))
     for name, key in ways:
         expect_equal(named.get(name, "0"), f"{arrivals['missed'][key] * 1000:.0f}", rows)
 
@@ -137,7 +137,7 @@ def expect_arrivals(rows, arrivals):
 def expect_option(text, option, alone=True):
     """Expect the page of an option to equal the JSON of the same run; with several options the bare slope has its own section."""
     flat_text = re.sub(r"\s+", " ", text)
-    tables = arrivals_of(text)
+    tables = parse_arrivals(text)
     flown = option["controls"][0]["wooded"] is not None
     expect_equal(len(tables), len(option["controls"]) if alone or flown else 0, "tables of what arrives")
     for table, control in zip(tables, option["controls"]):
@@ -154,7 +154,7 @@ def expect_option(text, option, alone=True):
         expect_in("On the whole profile: of 1000, {} are stopped by stems, {} come to rest, {} leave it".format(*shares),
                   flat_text, "ends")
         if control["wooded"]["rocks_reached"] > 0:
-            expect_equal(table["wooded"].get("stems hit by one that arrives", "0"), digits(control["wooded"]["contacts"]["mean"], 3), "stems hit")
+            expect_equal(table["wooded"].get("stems hit per arriving rock", "0"), digits(control["wooded"]["contacts"]["mean"], 3), "stems hit")
     words = {"pass": "passes", "fail": "FAILS", "unknown": "unknown"}
     told = [c for c in option["controls"] if c["verdict"]["answer"] != "nothing"]
     nothing = len(re.findall("Contact, free run and energy cannot be assessed", flat_text))
@@ -183,7 +183,7 @@ def columns(line):
 BLOCK = re.compile(r"^ {2}([> ]) +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+|none) +([\d.]+) +(-|\d+ \(\d+–\d+\))$")
 
 
-def blocks_of(text):
+def parse_sizes(text):
     """Return the table of other block sizes: [(own, volume, mass, diameter, ADC, contacts, per 1000)]."""
     lines = text.splitlines()
     first = next(i for i, line in enumerate(lines) if "Blocks of other sizes" in line)

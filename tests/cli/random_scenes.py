@@ -777,16 +777,16 @@ def flow(value):
     return scalar(value)
 
 
-def lines_of(value, indent):
+def block_lines(value, indent):
     """Write a mapping in block style; small values in flow style."""
     for key, item in value.items():
         if isinstance(item, dict) and len(flow(item)) > 90:
             yield f"{indent}{key}:"
-            yield from lines_of(item, indent + "  ")
+            yield from block_lines(item, indent + "  ")
         elif isinstance(item, list) and item and all(isinstance(entry, dict) for entry in item):
             yield f"{indent}{key}:"
             for entry in item:
-                first, *others = lines_of(entry, indent + "    ") if entry else [indent + "    {}"]
+                first, *others = block_lines(entry, indent + "    ") if entry else [indent + "    {}"]
                 yield f"{indent}  - {first.lstrip(' ')}"
                 yield from others
         else:
@@ -794,4 +794,4 @@ def lines_of(value, indent):
 
 
 def yaml(mapping):
-    return "\n".join(lines_of(mapping, "")) + "\n"
+    return "\n".join(block_lines(mapping, "")) + "\n"

@@ -113,17 +113,17 @@ def expect_shape(value, shape, path="$"):
             expect_shape(value[key], shape[key], f"{path}.{key}")
 
 
-def by_index(shape):
+def index_shape(shape):
     """Return the shape of a run with contact_model index: nothing is known with forest."""
     if shape is WOODED or shape is OTHER or shape is WINDOW:
         return NULL
     if isinstance(shape, list):
-        return [by_index(item) for item in shape]
+        return [index_shape(item) for item in shape]
     special = shape in (INDEX, STOPS, HAZARD, RULED, CHOICE, FENCED, FENCE, DESIGN) if isinstance(shape, dict) else True
-    return shape if special else {key: by_index(inner) for key, inner in shape.items()}
+    return shape if special else {key: index_shape(inner) for key, inner in shape.items()}
 
 
-INDEX_RESULT = by_index(RESULT)
+INDEX_RESULT = index_shape(RESULT)
 MODEL = "simulation.contact_model"
 MODELS = ("index", "stems")
 
@@ -260,7 +260,7 @@ def read_csv(text):
     return rows[0], [dict(zip(rows[0], row)) for row in rows[1:]]
 
 
-def look_up(mapping, name):
+def find_value(mapping, name):
     for key in re.findall(r"[^.\[\]]+", name):
         if mapping is None:
             return None
@@ -301,14 +301,14 @@ def expect_rows(rows, runs, inner):
                 value = "; ".join((run["warnings"] if inner == "controls" else []) +
                                   [w for s in stands for w in s["warnings"]])
             elif name in SCENE_CELLS:
-                value = look_up(run, name)
+                value = find_value(run, name)
             elif name.startswith("difference."):
                 found = [d for d in run["differences"] if (d["option"], d["x_m"]) == (option["name"], item["x_m"])]
-                value = look_up(found[0], name.removeprefix("difference.")) if found else None
+                value = find_value(found[0], name.removeprefix("difference.")) if found else None
             elif name.split(".")[0] in ("summary", "ends", "stop_x_m", "yield"):
-                value = look_up(option, name)
+                value = find_value(option, name)
             else:
-                value = look_up(item, name)
+                value = find_value(item, name)
             expect_cell(cell, value, f"{option['name']} {name}")
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import Folder, belt, expect, expect_equal, expect_in, good, result, run_all, stand, wooded_scene
-from pages import WHOLE, arrivals_of, expect_arrivals, expect_cells, expect_option, expect_order, expect_width, section, side_by_side
+from pages import WHOLE, parse_arrivals, expect_arrivals, expect_cells, expect_option, expect_order, expect_width, section, side_by_side
 from runs import FOUR, THICK, THIN, through, treated
 
 
@@ -31,7 +31,7 @@ def test_table_options():
     expect_order(text, *[re.escape(n) for n in names], "(?i)side by side")
     for option in run["options"]:
         expect_option(section(text, option["name"]), option, alone=False)
-    expect_arrivals(arrivals_of(section(text, "without forest"))[0]["bare"], run["options"][0]["controls"][0]["bare"])
+    expect_arrivals(parse_arrivals(section(text, "without forest"))[0]["bare"], run["options"][0]["controls"][0]["bare"])
     head, rows, words = side_by_side(text, names)
     expect_in("> 50 kJ", head, "head")
     for name, word in (("simple coppice, just cut", "✘"), ("simple coppice, 25 years", "✔"), ("large reserves, just cut", "✘")):
@@ -47,7 +47,7 @@ def test_table_options():
     for difference in run["differences"]:
         d = difference["exceed_probability"]
         expect_cells(rows[difference["option"]], f"{d['mean'] * 1000:+.0f}±{math.ceil(d['se'] * 1959.963984540054)}")
-    expect_in("Today no option passes the test of energy: it does not separate them", words, "what does not separate them")
+    expect_in("Today no option passes the test of energy: it does not distinguish them", words, "what does not distinguish them")
     shares = {o["name"]: o["controls"][0]["wooded"]["exceed_probability"] for o in run["options"]}
     best = leader(shares, {d["option"]: d["exceed_probability"] for d in run["differences"]})
     expect_in(f"Today '{best}' lets the fewest dangerous rocks through: {1000 * shares[best]:.0f} of 1000.", words, "the best today")
@@ -65,7 +65,7 @@ def test_table_options():
     expect("By contact" not in words, words)
     expect_width(text)
     same = good(*WHOLE, "-n", 50, FOUR, "--option", "large reserves", "--option", "coppice with standards").out
-    expect_order(same, "(?i)today all options pass the test of contact: it does not separate")
+    expect_order(same, "(?i)today all options pass the test of contact: it does not distinguish")
 
 
 def test_table_options_index():
@@ -78,7 +78,7 @@ def test_table_options_index():
     for name, word in (("simple coppice, just cut", "✘"), ("simple coppice, 25 years", "✔"), ("large reserves, just cut", "✘")):
         expect(re.search(rf"[\d.]+ {word} ", rows[name]), f"no {word} of contact", rows[name])
     expect_in("The index is the energy that stems could absorb, not the loss of a rock", words)
-    answer = words.replace("treatments is best for", "")  # which is the question
+    answer = words.replace("treatments best protects", "")  # which is the question
     expect(not re.search(r"(?i)\b(winner|best|recommended|worst option|rank)\b", answer), "a winner is named:", text)
     expect(re.search(r"kJ/100 m +left kJ", head), "heads run into one another:", head)
     expect("±" not in "".join(rows.values()), "an error of what was not flown", rows)
@@ -103,9 +103,9 @@ def test_table_best():
         expect(re.search(r"option mean rotation worst .* cut \d+±\d+ \d+±\d+ ", words), words)
         words = best_sentence(f, treated(none=None, many_thin=THIN))  # these take hardly any energy
         expect_in("Today no option is clearly better than the others.", words)
-        expect_in("'none' does not change: no stem stands in it.", words)
+        expect_in("'none' does not change: it has no stems.", words)
         words = best_sentence(f, treated(many_thin=THIN, few_thick=THICK), *through("index"))
-        expect("the fewest" not in words and "best" not in words.replace("treatments is best for", ""), words)
+        expect("the fewest" not in words and "best" not in words.replace("treatments best protects", ""), words)
         hardly = {**THICK, "trees": [{"per_ha": 301, "dbh_m": 0.4, "height_m": 18, "volume_m3": 1}]}
         words = best_sentence(f, treated(few_thick=THICK, hardly_more=hardly), "-n", 300)
         expect_in("Today no option is clearly better than the others.", words)

@@ -25,11 +25,11 @@ PAIRS = {"simple-coppice": ("simple-coppice-cut", 25), "simple-coppice-5y": ("si
 # ---- reading ----
 
 
-def blocks_of(name):
+def read_sections(name):
     """Return the blocks of a stand's file, its base's first."""
     text = (STANDS / f"{name}.yaml").read_text(encoding="utf-8")
     base = re.search(r"^base: (\S+)\.yaml$", text, re.M)
-    blocks = blocks_of(base[1]) if base else {}
+    blocks = read_sections(base[1]) if base else {}
     for key, block in re.findall(r"^(\w+):\n((?:  .*\n)+)", text, re.M):
         blocks[key] = (blocks.get(key, "") if key in ("stools", "growth", "cutting") else "") + block
     return blocks
@@ -41,14 +41,14 @@ def number(block, key, default=None):
     return float(found[-1]) if found else default
 
 
-def stems_of(blocks, key):
+def parse_stems(blocks, key):
     """Return each kind of stems: number per stool or hectare, dbh, height, age."""
     items = re.split(r"(?m)^  - ", blocks.get(key, ""))[1:]
     return [[number(i, "per_stool" if key == "shoots" else "per_ha"), number(i, "dbh_m"), number(i, "height_m"), number(i, "age_y")]
             for i in items]
 
 
-def curve_of(blocks, kind):
+def parse_curve(blocks, kind):
     curve = re.findall(rf"{kind}: {{(.*?)}}", blocks["growth"])[-1]
     return [number(curve, key) for key in ("dbh_most_m", "dbh_rate_1_y", "height_most_m", "height_rate_1_y")]
 
@@ -64,18 +64,18 @@ def grown(stem, curve, years, age=None):
     return dbh * d1 / d0, height * h1 / h0
 
 
-def year_of(blocks, years, trees):
+def compute_year(blocks, years, trees):
     """Return stools, shoots per stool with dbh and height, and trees, n years after the cut that left these trees and cohorts."""
     growth, cohorts = blocks["growth"], int(number(blocks["cutting"], "cohorts", 1))
-    young, old, curve = number(growth, "shoots_young"), number(growth, "shoots_old"), curve_of(blocks, "shoots")
+    young, old, curve = number(growth, "shoots_young"), number(growth, "shoots_old"), parse_curve(blocks, "shoots")
 
     def on_stool(age):
         return old + (young - old) * math.exp(-age / 5)
 
-    trees = [(n, *grown((n, d, h, None), curve_of(blocks, "trees"), years)) for n, d, h in trees]
+    trees = [(n, *grown((n, d, h, None), parse_curve(blocks, "trees"), years)) for n, d, h in trees]
     stools = number(blocks["stools"], "per_ha")
     shoots = [(stools * on_stool(years) / cohorts, *size(curve, years))]
-    for stem in stems_of(blocks, "shoots"):
+    for stem in parse_stems(blocks, "shoots"):
         shoots.append((stools * stem[0] * on_stool(stem[3] + years) / on_stool(stem[3]), *grown(stem, curve, years, stem[3])))
     most = number(growth, "sdi_most") * (1 - density_index(trees) / number(growth, "trees_sdi_most"))
     share = min(1, most / density_index(shoots))
@@ -85,9 +85,9 @@ def year_of(blocks, years, trees):
 
 
 def expect_state(name, stools, shoots, trees):
-    blocks = blocks_of(name)
+    blocks = read_sections(name)
     expect_near(number(blocks["stools"], "per_ha"), stools, 0.5, f"{name}: stools")
-    for what, stated, computed in (("shoots", stems_of(blocks, "shoots"), shoots), ("trees", stems_of(blocks, "trees"), trees)):
+    for what, stated, computed in (("shoots", parse_stems(blocks, "shoots"), shoots), ("trees", parse_stems(blocks, "trees"), trees)):
         expect_equal(len(stated), len(computed), f"{name}: kinds of {what}")
         for a, b in zip(stated, computed):
             for x, y, grain in zip(a, b, (0.001, 0.0001, 0.01)):
@@ -97,10 +97,10 @@ def expect_state(name, stools, shoots, trees):
 def test_pairs():
     """A grown stand of hop hornbeam is the freshly cut one 25 (5, 13) years later, by the closed forms of growth"""
     for name, (cut, years) in PAIRS.items():
-        blocks = blocks_of(cut)
-        expect_state(name, *year_of(blocks, years, [t[:3] for t in stems_of(blocks, "trees")]))
+        blocks = read_sections(cut)
+        expect_state(name, *compute_year(blocks, years, [t[:3] for t in parse_stems(blocks, "trees")]))
         for key in ("growth", "cutting"):
-            expect_equal(blocks_of(name)[key], blocks[key], f"{name} and {cut}: {key}")
+            expect_equal(read_sections(name)[key], blocks[key], f"{name} and {cut}: {key}")
 
 
 def test_species():
@@ -108,15 +108,15 @@ def test_species():
     for species in SPECIES:
         for system in ("simple-coppice", "coppice-with-standards", "large-reserves", "selection-coppice"):
             name = f"{species}-{system}"
-            blocks, ages = blocks_of(name), [s[3] for s in stems_of(blocks_of(name), "shoots")]
+            blocks, ages = read_sections(name), [s[3] for s in parse_stems(read_sections(name), "shoots")]
             rotation = number(blocks["cutting"], "rotation_years")
             expect_equal(ages, [rotation * (i + 1) for i in range(len(ages))], f"{name}: ages of the shoots")
-            left = [t[:3] for t in stems_of(blocks_of(f"{system}-cut"), "trees")]
+            left = [t[:3] for t in parse_stems(read_sections(f"{system}-cut"), "trees")]
             if name == "chestnut-coppice-with-standards":
                 left = [[47, 0.15, 12], [23, 0.25, 15]]
             elif system == "simple-coppice":
-                left[0][0] = stems_of(blocks, "trees")[0][0]
-            curve, old, young = (curve_of(blocks, "shoots"), number(blocks["growth"], "shoots_old"),
+                left[0][0] = parse_stems(blocks, "trees")[0][0]
+            curve, old, young = (parse_curve(blocks, "shoots"), number(blocks["growth"], "shoots_old"),
                                  number(blocks["growth"], "shoots_young"))
             there = []  # the older cohorts just after that cut
             for i in range(1, len(ages)):
@@ -125,7 +125,7 @@ def test_species():
                     share, *size(curve, rotation * i), rotation * i))
             at_cut = re.findall(r"; (\d+) at the cut", blocks["stools"].split("per_ha:")[-1])
             stools = at_cut[-1] if at_cut else number(blocks["stools"], "per_ha")
-            expect_state(name, *year_of({**blocks, "shoots": "".join(there), "stools": f"per_ha: {stools}"}, rotation, left))
+            expect_state(name, *compute_year({**blocks, "shoots": "".join(there), "stools": f"per_ha: {stools}"}, rotation, left))
 
 
 def test_program():

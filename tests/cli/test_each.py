@@ -115,7 +115,7 @@ def test_columns():
             expect_equal(run(f, *words).status, USAGE, words)
 
 
-def alone(f, *sets):
+def run_alone(f, *sets):
     """Return the CSV row of a scene changed by -s."""
     return table(good("-b", "-n", 60, "-f", "csv", *[w for s in sets for w in ("-s", s)], "s.yaml", cwd=f.path).out)[0]
 
@@ -129,7 +129,7 @@ def expect_rows(f, text, wanted):
     expect_equal(len(rows), len(wanted), str(r))
     for row, (cells, sets) in zip(rows, wanted):
         expect_equal({k: row[k] for k in cells}, cells, text)
-        single = alone(f, *sets)
+        single = run_alone(f, *sets)
         expect_equal({k: row[k] for k in single}, single, text)
 
 

@@ -90,5 +90,5 @@ if __name__ == "__main__":
         PATTERNS.write_text("\n".join(lines) + "\n", encoding="utf-8")
         sys.exit()
     suite = harness.Suite()
-    suite.run(harness.tests_of(sys.modules[__name__]))
+    suite.run(harness.list_tests(sys.modules[__name__]))
     suite.end()

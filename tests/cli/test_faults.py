@@ -79,7 +79,7 @@ class Place(Folder):
         return [*sorted(first.values()), 10 * len(found)]
 
 
-def told(done, at):
+def describe_end(done, at):
     return f"at {at}: status {done.returncode}\n{done.stdout[:500]!r}\n{done.stderr[:800]!r}"
 
 
@@ -98,13 +98,13 @@ def no_memory(words, on):
             if not reached:
                 break
             if done.returncode == DONE:
-                expect(done.stdout in (wanted.stdout, plain) and done.stderr == b"", told(done, at))
+                expect(done.stdout in (wanted.stdout, plain) and done.stderr == b"", describe_end(done, at))
                 continue
             failed += 1
-            expect(done.returncode in (RUN, INPUT, USAGE) and b"out of memory" in done.stderr, told(done, at))
-            expect(done.returncode != USAGE or b"try 'ceduo --help'" in done.stderr, told(done, at))
-            expect_equal(done.stdout, b"", told(done, at))
-            expect_equal(sorted(p.name for p in place.work.iterdir()), sorted(FILES), told(done, at))
+            expect(done.returncode in (RUN, INPUT, USAGE) and b"out of memory" in done.stderr, describe_end(done, at))
+            expect(done.returncode != USAGE or b"try 'ceduo --help'" in done.stderr, describe_end(done, at))
+            expect_equal(done.stdout, b"", describe_end(done, at))
+            expect_equal(sorted(p.name for p in place.work.iterdir()), sorted(FILES), describe_end(done, at))
         expect(not reached, at)
         print(f"# {failed} end the program")
         expect(failed > 20, f"{failed} failures: is the library loaded?")
@@ -160,9 +160,9 @@ def test_memory_output():
         for at in place.allocations(*BATCH, "-o", "out.csv"):
             out.write_text("old")
             done, reached = place.run(*BATCH, "-o", "out.csv", fault="memory", at=at)
-            expect(done.returncode in (DONE, RUN, USAGE, INPUT, OUTPUT), told(done, at))
-            expect_equal(out.read_bytes(), new if done.returncode == DONE else b"old", told(done, at))
-            expect_equal(sorted(p.name for p in place.work.iterdir()), sorted([*FILES, "out.csv"]), told(done, at))
+            expect(done.returncode in (DONE, RUN, USAGE, INPUT, OUTPUT), describe_end(done, at))
+            expect_equal(out.read_bytes(), new if done.returncode == DONE else b"old", describe_end(done, at))
+            expect_equal(sorted(p.name for p in place.work.iterdir()), sorted([*FILES, "out.csv"]), describe_end(done, at))
             if not reached:
                 break
 
@@ -176,7 +176,7 @@ def save_without_memory(on):
         scene.write_text(FAST)
         done, _ = place.run(*command, fault="none")
         new, seen = scene.read_text(), {}
-        expect_equal(done.returncode, DONE, told(done, 0))
+        expect_equal(done.returncode, DONE, describe_end(done, 0))
         expect_equal(new, FAST.replace("diameter_m: 0.5}   # kept", "diameter_m: 0.75}   # kept"), "the new file")
         scene.write_text(FAST)
         for at in place.allocations(*command, after="before.txt"):
@@ -189,24 +189,24 @@ def save_without_memory(on):
             found = scene.read_text()
             seen[(found == new, done.returncode)] = seen.get((found == new, done.returncode), 0) + 1
             expect(found in (FAST, new), f"at {at}: neither the old file nor the new one", found)
-            expect_equal({p.name for p in place.work.iterdir()} - set(FILES), {p.name for p in dumps if p.exists()}, told(done, at))
+            expect_equal({p.name for p in place.work.iterdir()} - set(FILES), {p.name for p in dumps if p.exists()}, describe_end(done, at))
             if done.returncode == DONE:  # a failed call of the C library is an error of the save
                 screen = Screen(dumps[1].read_text(), 80, 24)
                 if found == new:
-                    expect_equal(screen.note, "saved scene.yaml", told(done, at))
+                    expect_equal(screen.note, "saved scene.yaml", describe_end(done, at))
                 else:
                     screen.has("scene.yaml: Cannot allocate memory")
-                expect_equal("* fast" in screen.title, found != new, told(done, at))
+                expect_equal("* fast" in screen.title, found != new, describe_end(done, at))
             elif done.returncode == OUTPUT:
-                expect(b"Cannot allocate memory" in done.stderr, told(done, at))
+                expect(b"Cannot allocate memory" in done.stderr, describe_end(done, at))
             else:
-                expect_equal((done.returncode, done.stderr), (RUN, b"ceduo: out of memory\n"), told(done, at))
+                expect_equal((done.returncode, done.stderr), (RUN, b"ceduo: out of memory\n"), describe_end(done, at))
         print(f"# {seen}")
         expect(min(seen.get((False, RUN), 0), seen.get((True, RUN), 0)) > 2, f"{seen}: is the library loaded?")
 
 
 def test_memory_save():
-    """Allocations of a save of the terminal program fail once: a complete file, and the screen or status tells which one"""
+    """Allocations of a save of the terminal program fail once: a complete file; the screen or status shows which one"""
     save_without_memory(False)
 
 
@@ -249,16 +249,16 @@ def one_call(fault):
                     break
                 found = file.read_bytes()
                 seen.add(found)
-                expect(found in (old, new), what, "half a file", told(done, at), repr(found[:200]))
+                expect(found in (old, new), what, "half a file", describe_end(done, at), repr(found[:200]))
                 left = [p for p in place.work.iterdir() if p.name not in FILES and p != file]
                 left_behind += len(left)
                 if fault == "kill":
-                    expect_equal(done.returncode, -9, told(done, at))
+                    expect_equal(done.returncode, -9, describe_end(done, at))
                     expect(all(not p.name.endswith(".yaml") for p in left), f"{left} would be taken for scenes")
                 else:
-                    expect(0 <= done.returncode <= 4, what, told(done, at))
-                    expect(not left, what, f"left behind: {left}", told(done, at))
-                    expect(what != "-o" or (done.returncode == DONE) == (found == new), what, told(done, at))
+                    expect(0 <= done.returncode <= 4, what, describe_end(done, at))
+                    expect(not left, what, f"left behind: {left}", describe_end(done, at))
+                    expect(what != "-o" or (done.returncode == DONE) == (found == new), what, describe_end(done, at))
             print(f"# {what}: {at - 1} calls, {left_behind} times a file was left behind")
             expect(fault != "kill" or left_behind >= 4, what, "no file is ever left behind: is the library loaded?")
             expect_equal(seen, {old, new}, what)
@@ -296,13 +296,13 @@ def pair_with(fault):
             if not reached:
                 break
             found = [p.read_bytes() for p in files]
-            expect(all(f in both for f, both in zip(found, zip(*pairs))), "half a file", told(done, at))
+            expect(all(f in both for f, both in zip(found, zip(*pairs))), "half a file", describe_end(done, at))
             mixed += found not in pairs
             statuses.add(done.returncode)
             seen.add(pairs.index(found) if found in pairs else 2)
             left = [p for p in place.work.iterdir() if p.name not in FILES and p.name != "quarry.yaml" and p not in files]
-            expect(fault == "kill" or not left, f"left behind: {left}", told(done, at))
-            expect(fault == "kill" or (done.returncode == DONE) <= (found == pairs[1]), told(done, at))
+            expect(fault == "kill" or not left, f"left behind: {left}", describe_end(done, at))
+            expect(fault == "kill" or (done.returncode == DONE) <= (found == pairs[1]), describe_end(done, at))
             for p in left:
                 p.unlink()
     print(f"# {at - 1} calls, {mixed} times the two do not belong together")
@@ -338,8 +338,8 @@ def test_calls_on():
                 file.write_bytes(old)
                 done, reached = place.run(*command, fault="call", at=at, on=True)
                 found = file.read_bytes()
-                expect(0 <= done.returncode <= 4 and found in (old, new), what, told(done, at), repr(found[:200]))
-                expect(what != "-o" or (done.returncode == DONE) == (found == new), what, told(done, at))
+                expect(0 <= done.returncode <= 4 and found in (old, new), what, describe_end(done, at), repr(found[:200]))
+                expect(what != "-o" or (done.returncode == DONE) == (found == new), what, describe_end(done, at))
                 left = {p.name for p in place.work.iterdir()} - set(FILES) - {file.name}
                 expect(not any(name.endswith(".yaml") for name in left), f"{left} would be taken for scenes")
 
@@ -354,7 +354,7 @@ def test_calls_straight():
                 done, reached = place.run(*BATCH, "-o", "/dev/null", fault="call", at=at, on=on)
                 expect(done.returncode == OUTPUT and b"/dev/null: Input/output error" in done.stderr or
                        done.returncode == INPUT and b"cannot read it: Input/output error" in done.stderr or
-                       done.returncode == DONE and done.stderr == b"", told(done, at))
+                       done.returncode == DONE and done.stderr == b"", describe_end(done, at))
                 failed += done.returncode == OUTPUT
             expect(failed >= 3, f"{failed} of {at - 1} calls fail the output: to open, to write and to close it")
 
@@ -366,7 +366,7 @@ def test_short_writes():
         for more in ((), ("-o", "out.csv")):
             done, reached = place.run(*BATCH, *more, fault="short")
             found = (place.work / "out.csv").read_bytes() if more else done.stdout
-            expect(reached and done.returncode == DONE and found == wanted.stdout, told(done, 0))
+            expect(reached and done.returncode == DONE and found == wanted.stdout, describe_end(done, 0))
 
 
 def test_no_threads():
@@ -374,15 +374,15 @@ def test_no_threads():
     with Place() as place:
         wanted, _ = place.run(*BATCH[:-1], "-j", 4, "-n", 5000, "scene.yaml", fault="none")
         done, reached = place.run(*BATCH[:-1], "-j", 4, "-n", 5000, "scene.yaml", fault="threads")
-        expect(reached and done.returncode == DONE and done.stdout == wanted.stdout, told(done, 0))
+        expect(reached and done.returncode == DONE and done.stdout == wanted.stdout, describe_end(done, 0))
         place.write("seen.yaml", FAST + "observed: {passed: {x_m: 60, count: 3, of: 5}}\n")
         for what in (("--sensitivity=2", "scene.yaml"), ("--calibrate", "release.vx_m_s=1:9", "../seen.yaml")):
             wanted, _ = place.run("-f", "json", "-j", 2, "-n", 2, *what, fault="none")
             done, reached = place.run("-f", "json", "-j", 2, "-n", 2, *what, fault="threads")
-            expect(reached and done.returncode == DONE and done.stdout == wanted.stdout, told(done, 0))
+            expect(reached and done.returncode == DONE and done.stdout == wanted.stdout, describe_end(done, 0))
         place.write("play.txt", "key q\n")
         done, reached = place.run("--script", "../play.txt", "scene.yaml", fault="threads")
-        expect(reached and done.returncode in (RUN, INPUT) and done.stderr != b"", told(done, 0))
+        expect(reached and done.returncode in (RUN, INPUT) and done.stderr != b"", describe_end(done, 0))
 
 
 # ---- folders of other users ----
@@ -411,7 +411,7 @@ def test_read_only_folder():
         for mode in (0o444, 0o666):  # a writable file is also replaced by a new one
             os.chmod(f.path / "theirs/scene.yaml", mode)
             done = run("--script", "../play.txt", "scene.yaml")
-            expect(done.returncode == DONE and done.stderr == b"", told(done, 0))
+            expect(done.returncode == DONE and done.stderr == b"", describe_end(done, 0))
             lines = done.stdout.decode().split("\n")
             saved, quit_asks = (Screen("\n".join(lines[i:i + 24]) + "\n", 80, 24) for i in (0, 24))
             saved.has("Save as", "scene.yaml: Permission denied", "Permission denied. Choose another name")
@@ -419,7 +419,7 @@ def test_read_only_folder():
             quit_asks.has("There are unsaved changes")
             expect_equal((f.path / "theirs/scene.yaml").read_text(), FAST)
         done = run(*BATCH[:-1], "-o", "out.csv", "scene.yaml")
-        expect(done.returncode == OUTPUT and b"out.csv: Permission denied" in done.stderr, told(done, 0))
+        expect(done.returncode == OUTPUT and b"out.csv: Permission denied" in done.stderr, describe_end(done, 0))
         expect_equal(sorted(p.name for p in (f.path / "theirs").iterdir()), ["scene.yaml"])
         os.chmod(f.path / "theirs", 0o755)
 
@@ -446,7 +446,7 @@ def test_small_stack():
             into = () if words[0] in ("--check", "--script") else ("-o", out)
             done = subprocess.run([CEDUO, *map(str, (*words, *into))], cwd=f.path, env=environment(), preexec_fn=limit,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, timeout=PATIENCE)
-            expect(done.returncode == DONE and done.stderr == b"", words, told(done, 0))
+            expect(done.returncode == DONE and done.stderr == b"", words, describe_end(done, 0))
             expect_equal(f.names(), sorted({"play.txt"} if words[0] == "--check" else {"play.txt", out}), words)
             expect(words[0] == "--check" or (f.path / out).stat().st_size > 0, words, "an empty file")
             (f.path / out).unlink(missing_ok=True)
@@ -465,7 +465,7 @@ def test_file_size_limit():
         f.write("out.csv", "old")
         done = subprocess.run([CEDUO, *map(str, BATCH), "-o", "out.csv"], cwd=f.path, env=environment(), preexec_fn=limit,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
-        expect(done.returncode == OUTPUT and b"out.csv: File too large" in done.stderr, told(done, 0))
+        expect(done.returncode == OUTPUT and b"out.csv: File too large" in done.stderr, describe_end(done, 0))
         expect_equal((f.path / "out.csv").read_text(), "old")
         expect_equal(f.names(), sorted([*FILES, "out.csv"]))
 
@@ -485,7 +485,7 @@ def test_full_disk():
                               stderr=subprocess.PIPE, check=False)
         if done.returncode == 77 or b"unshare" in done.stderr:
             raise Skip("a file system cannot be mounted here")
-        expect(done.returncode == OUTPUT and b"No space left" in done.stderr, told(done, 0))
+        expect(done.returncode == OUTPUT and b"No space left" in done.stderr, describe_end(done, 0))
         expect_equal(done.stdout, b"old\nballast\nout.csv\n")
 
 
@@ -527,7 +527,7 @@ def test_reader_leaves():
     """A reader that takes one byte ends the program by SIGPIPE, without a message"""
     done = subprocess.run(["bash", "-c", f"{shlex.quote(CEDUO)} --list-parameters | head -c 1; echo \" ${{PIPESTATUS[0]}}\""],
                           env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
-    expect(done.stdout in (b"p 0\n", b"p 141\n", b"p 4\n") and done.stderr == b"", told(done, 0))
+    expect(done.stdout in (b"p 0\n", b"p 141\n", b"p 4\n") and done.stderr == b"", describe_end(done, 0))
     expect_in(b"p ", done.stdout)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Messages about an unrecognized file show its first 20 characters and no more, for every way to name it."""
+"""Messages about an unrecognized file show only its first 20 characters, for every way to name it."""
 import json
 import sys
 from pathlib import Path
@@ -33,7 +33,7 @@ WHY = "(nothing says that this file is one of ceduo's: no more of it is shown)"
 FIRST = PRIVATE["passwd"].split("\n", 1)[0]
 
 
-def ways(path):
+def scenes_naming(path):
     """Return scenes that name a file in every possible place."""
     flat = {"vertices_m": [[0, 64], [100, 0]], "segments": GROUND}
     column = FIRST if path.name == "passwd" else "zugang" if path.name == "people.csv" else "znumber"
@@ -49,7 +49,7 @@ def ways(path):
             yield scene(slope=flat, observed={kind: {**table, **more, **at}})
 
 
-def words_of(text):
+def secret_words(text):
     """Return the secret words of a file: all beyond the first 20 characters of its first line."""
     first = text.split("\n", 1)[0][:20]
     words = "".join(c if c.isalnum() or c == "." else " " for c in text[len(first):]).split()
@@ -60,7 +60,7 @@ def check_silent(name, done, own=""):
     """`own`: the scene's own words."""
     said, text = done.out + done.err, PRIVATE[name]
     expect(done.status != DONE, name, done)
-    told = [word for word in words_of(text) if word in said and word not in own]
+    told = [word for word in secret_words(text) if word in said and word not in own]
     for line in text.splitlines():
         told += [run for run in (line[i:i + 21] for i in range(len(line) - 20)) if run in said and run not in own]
     expect(not told, f"{name}: told {told[:5]}", done)
@@ -74,7 +74,7 @@ def test_private_files():
             for mode in ("--check", "--batch"):
                 check_silent(name, ceduo(mode, path))
             check_silent(name, ceduo("--check", "-", stdin=text.encode()))
-            for what in ways(path):
+            for what in scenes_naming(path):
                 check_silent(name, ceduo("--check", f.write("s.yaml", what)), json.dumps(what))
             check_silent(name, ceduo("--check", "-s", f"slope={path}", f.write("s.yaml", scene())))
 
@@ -90,7 +90,7 @@ def test_private_elsewhere():
 
 
 def test_first_characters():
-    """Shown: the beginning of the first line, and why no more; the place and the error are reported"""
+    """Printed: the beginning of the first line, the reason for the rest missing, the place and the error"""
     with Folder() as f:
         path = f.write("passwd", PRIVATE["passwd"])
         done = ceduo("--check", f.write("s.yaml", scene(slope={"csv": str(path)})))

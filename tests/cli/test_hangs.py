@@ -16,7 +16,7 @@ LATE = 1 * SLOWER  # seconds of processor time: ten times the usual
 
 
 def test_too_many_stems():
-    """A rock that meets more than a million stems is unfinished, and the page says so"""
+    """A rock that meets more than a million stems is unfinished, and the page reports it"""
     with Folder() as f:
         path = f.write("long.yaml", long_slope(1e5, 1e5 - 1, 1e6))
         r = ceduo("--batch", "-f", "json", "-n", 3, path)

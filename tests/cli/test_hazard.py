@@ -49,7 +49,7 @@ def page(what):
         return good("--batch", "--details", "-n", 100, f.write("s.yaml", what)).out
 
 
-def hazard_of(result, side="bare", control=-1, option=0):
+def find_hazard(result, side="bare", control=-1, option=0):
     return result["options"][option]["controls"][control][side]["hazard"]
 
 
@@ -85,7 +85,7 @@ def test_curve_at_the_frame():
     """The curve leaves its picture at less than once in 1000 years, between two energies of the table"""
     with Folder() as f:
         path = f.write("s.yaml", falls(POWER))
-        rows = hazard_of(good("--batch", "-f", "json", "--details", "-n", 2000, path).json()[0])["exceed_rate"]
+        rows = find_hazard(good("--batch", "-f", "json", "--details", "-n", 2000, path).json()[0])["exceed_rate"]
         page = good("--report", "-", "-n", 2000, path).out
     (ax, ay), (bx, by) = next(((math.log10(a["energy_kJ"]), math.log10(a["per_year"])), (math.log10(b["energy_kJ"]), math.log10(b["per_year"])))
                               for a, b in zip(rows, rows[1:]) if a["per_year"] > 1e-3 >= b["per_year"] > 0)
@@ -106,8 +106,8 @@ def test_power_law():
     for classes in ([POWER], [{**POWER, "exponent": 0}], [{**POWER, "exponent": 0.5}, {"per_year": 0.02, "volume_m3": [20, 30]}],
                     [{"per_year": 0.2, "volume_m3": [1, 3]}, {"per_year": 7, "volume_m3": [0.02, 0.5], "exponent": 2}]):
         result = run(falls(classes[0] if len(classes) == 1 else classes))
-        check_power_law(classes, hazard_of(result))
-        check_power_law(classes, hazard_of(result, "wooded"))
+        check_power_law(classes, find_hazard(result))
+        check_power_law(classes, find_hazard(result, "wooded"))
 
 
 def test_effective_rocks():
@@ -117,7 +117,7 @@ def test_effective_rocks():
     mean, square = ((lo ** -k - hi ** -k) / (k * length) for k in (b, 2 * b))
     result = run(falls(POWER), "-n", 20000)
     for side in ("bare", "wooded"):
-        expect_near(hazard_of(result, side)["effective_rocks"] / 20000, mean * mean / square, 1e-3 * mean * mean / square, side)
+        expect_near(find_hazard(result, side)["effective_rocks"] / 20000, mean * mean / square, 1e-3 * mean * mean / square, side)
 
 
 def test_accepted_return():
@@ -147,7 +147,7 @@ def test_no_size():
     """With blocks the rock needs no size: rates and energies do not depend on it, and single-rock figures use the mean block"""
     for classes in ([POWER], [{**POWER, "exponent": 0}, {"per_year": 0.02, "volume_m3": [20, 30], "exponent": 1}]):
         result = run(falls(classes, rock={"density_kg_m3": DENSITY}))
-        check_power_law(classes, hazard_of(result))
+        check_power_law(classes, find_hazard(result))
         expect_near(result["rock"]["mass_kg"] / DENSITY / mean_volume(classes), 1, 1e-4)
     sizes = "", ", diameter_m: 0.3, height_m: 0.3", ", diameter_m: 2, height_m: 2"
     found = [good("--batch", "-f", "json", "-n", 500, "-s", f"rock={{shape: cylinder, density_kg_m3: 2600{size}}}",
@@ -182,7 +182,7 @@ def test_no_size_in_all_modes():
 def test_figures_agree():
     """Matrix, accepted energy and shares agree with the curve"""
     result = run(falls(POWER))
-    hazard, bare = hazard_of(result), result["options"][0]["controls"][0]["bare"]
+    hazard, bare = find_hazard(result), result["options"][0]["controls"][0]["bare"]
     exact = rate_above([POWER], 500)
     expect_near(hazard["exceed_per_year"], exact, 0.004 * exact)
     expect_near(hazard["accepted_years"], 1 / hazard["exceed_per_year"], 1e-9)
@@ -210,7 +210,7 @@ def test_split():
     above = number_above(POWER, 0.5)
     two = [{**POWER, "volume_m3": [0.01, 0.5], "per_year": POWER["per_year"] - above},
            {**POWER, "volume_m3": [0.5, 10], "per_year": above}]
-    a, b = (hazard_of(run(slope_site(blocks=what)), "wooded") for what in (POWER, two))
+    a, b = (find_hazard(run(slope_site(blocks=what)), "wooded") for what in (POWER, two))
     for p, q in zip(a["exceed_rate"], b["exceed_rate"]):
         for key in ("per_year", "lo", "hi"):
             expect_near(p[key], q[key], 1e-9 * p["hi"], f"{key} of {p['energy_kJ']}")
@@ -219,7 +219,7 @@ def test_split():
 def test_brute_force():
     """Weights give the rates of naturally frequent blocks, with 20 times fewer rocks at 300 years"""
     site = slope_site(simulation={"rocks": 4000 if FULL else 1000, "seed": 5})
-    weighted = hazard_of(run(site), "wooded")
+    weighted = find_hazard(run(site), "wooded")
     # natural frequencies: classes so thin that sizes within one are equally likely, each with its own run and number of rocks
     counts = {k["energy_kJ"]: 0 for k in weighted["exceed_rate"]}
     rocks, cells = (400000 if FULL else 40000), 24
@@ -229,7 +229,7 @@ def test_brute_force():
         share = (number_above(POWER, lo) - number_above(POWER, hi)) / POWER["per_year"]
         n = max(1, round(share * rocks))
         thin = {"per_year": POWER["per_year"] * share, "volume_m3": [lo, hi], "exponent": POWER["exponent"]}
-        found = hazard_of(run(slope_site(blocks=thin, simulation={"rocks": n, "seed": 6})), "wooded")
+        found = find_hazard(run(slope_site(blocks=thin, simulation={"rocks": n, "seed": 6})), "wooded")
         total += n
         for point in found["exceed_rate"]:
             counts[point["energy_kJ"]] = counts.get(point["energy_kJ"], 0) + point["per_year"] / thin["per_year"] * n
@@ -249,7 +249,7 @@ def test_curves():
     """Curves only fall, lie within their intervals, and the forest's curve exceeds the bare slope's at most by errors"""
     result = run(slope_site())
     for control in range(2):
-        bare, wooded = (hazard_of(result, side, control)["exceed_rate"] for side in ("bare", "wooded"))
+        bare, wooded = (find_hazard(result, side, control)["exceed_rate"] for side in ("bare", "wooded"))
         for curve in (bare, wooded):
             for p, q in zip(curve, curve[1:]):
                 expect(p["per_year"] >= q["per_year"] and p["energy_kJ"] < q["energy_kJ"], p, q)
@@ -257,19 +257,19 @@ def test_curves():
             expect(curve[-1]["per_year"] == 0 and curve[-2]["per_year"] > 0, curve[-2:])
         for p, q in zip(bare, wooded):
             expect(q["lo"] <= p["hi"], p, q)
-        left = hazard_of(result, "wooded", control)["rate_left"]
-        rates = [hazard_of(result, side, control)["exceed_per_year"] for side in ("wooded", "bare")]
+        left = find_hazard(result, "wooded", control)["rate_left"]
+        rates = [find_hazard(result, side, control)["exceed_per_year"] for side in ("wooded", "bare")]
         expect_near(left, rates[0] / rates[1], 1e-12)
 
 
 def test_none():
     """Without blocks there is no hazard; with the index none with forest; without arrivals the rates are 0"""
     result = run(slope_site(blocks=None))
-    expect_equal((hazard_of(result), hazard_of(result, "wooded")), (None, None))
+    expect_equal((find_hazard(result), find_hazard(result, "wooded")), (None, None))
     result = run(slope_site(simulation={"rocks": 50, "contact_model": "index"}))
-    expect(hazard_of(result)["per_year"] == 4 and result["options"][0]["controls"][1]["wooded"] is None, result)
+    expect(find_hazard(result)["per_year"] == 4 and result["options"][0]["controls"][1]["wooded"] is None, result)
     stuck = run(falls(POWER, controls=[{"x_m": 55}], simulation={"rocks": 500}))
-    hazard = hazard_of(stuck)
+    hazard = find_hazard(stuck)
     expect_equal((hazard["reach_per_year"], hazard["reach_years"], hazard["accepted_years"], hazard["rate_left"]),
                  (0, None, None, None))
     expect_equal(hazard["exceed_rate"][0]["per_year"], 0)
@@ -292,10 +292,10 @@ def test_same_bits():
 def test_error_bars():
     """The 95 % intervals contain the result of very many rocks for at least 90 % of 60 seeds"""
     site = slope_site(simulation={"rocks": 200})
-    best = hazard_of(run(slope_site(), "-n", 60000), "wooded")
+    best = find_hazard(run(slope_site(), "-n", 60000), "wooded")
     held = {"accepted": 0, "return": 0}
     for seed in range(60):
-        h = hazard_of(run(site, "--seed", 100 + seed), "wooded")
+        h = find_hazard(run(site, "--seed", 100 + seed), "wooded")
         low, high = h["accepted_years_lo"], h["accepted_years_hi"]
         held["accepted"] += low <= best["accepted_years"] and (high is None or best["accepted_years"] <= high)
         low, high = h["return"][2]["lo"], h["return"][2]["hi"]
@@ -308,7 +308,7 @@ def test_csv():
     with Folder() as f:
         path = f.write("s.yaml", slope_site())
         row = list(csv.DictReader(io.StringIO(good("--batch", "-f", "csv", path).out)))[1]
-        hazard = hazard_of(good("--batch", "-f", "json", path).json()[0], "wooded")
+        hazard = find_hazard(good("--batch", "-f", "json", path).json()[0], "wooded")
         for key, value in {"accepted_years": hazard["accepted_years"], "return[3].energy_kJ": hazard["return"][3]["energy_kJ"],
                            "matrix[2].per_year": hazard["matrix"][2]["per_year"], "rate_left": hazard["rate_left"]}.items():
             expect_equal(float(row[f"wooded.hazard.{key}"]), value, key)
@@ -327,17 +327,17 @@ def test_page():
         path = f.write("s.yaml", slope_site(forest=None, options=options))
         page = " ".join(good(*WHOLE, path).out.split())
         result = good("--batch", "-f", "json", path).json()[0]
-        bare, wooded = hazard_of(result), hazard_of(result, "wooded", -1, 1)
+        bare, wooded = find_hazard(result), find_hazard(result, "wooded", -1, 1)
         years = [f"{shown(h['accepted_years'])} ({shown(h['accepted_years_lo'])}–{shown(h['accepted_years_hi'])})"
                  for h in (bare, wooded)]
         expect(re.search(rf"return period of such a rock, years {re.escape(years[0])} ", page), years, page)
         expect(re.search(rf"return period of such a rock, years {re.escape(years[1])} ", page), years, page)
-        expect_in("Rock sphere; rocks are the blocks below, the index is of ", page)
+        expect_in("Rock sphere; sizes as in Blocks; index for a rock of ", page)
         left = " ".join(shown(100 * m["rate_left"]) for m in wooded["matrix"])
         expect_in(f"coppice {years[1]} {left} without forest {years[0]} 100 100 100 Energy reached or exceeded", page)
         square = page.split("Intensity by return period")[2]
         marks = {word: [[] for _ in range(3)] for word in ("none", "weak", "medium", "strong")}
-        for number, h in enumerate((bare, hazard_of(result, "wooded", -1, 0), wooded)):
+        for number, h in enumerate((bare, find_hazard(result, "wooded", -1, 0), wooded)):
             for column, back in enumerate(h["return"][1:]):
                 classes = [m["intensity"] for m in h["matrix"] if m[f"to_{back['years']}_years"]]
                 expect_equal(len(classes), int(back["energy_kJ"] is not None), back)
@@ -376,7 +376,7 @@ def test_wide_figures():
         expect(len(row) <= 81 and "\u2026" not in row, row)
         found = re.findall(r"(\d\.\d) \(([\d.]+)\u2013([\d.]+)\)e(\d)", row)
         expect_equal(len(found), 3, row)
-        for (value, lo, hi, power), back in zip(found, hazard_of(result)["return"][1:]):
+        for (value, lo, hi, power), back in zip(found, find_hazard(result)["return"][1:]):
             for shown, key in ((value, "energy_kJ"), (lo, "lo"), (hi, "hi")):
                 wanted = back[key] / 10 ** int(power)
                 expect_near(float(shown), wanted, 0.05 * (1 + 1e-9) if wanted < 10 else 0.5, key)
@@ -394,7 +394,7 @@ def test_unknown_lower_end():
             path = f.write("s.yaml", slope_site(blocks={"per_year": per_year, "volume_m3": [0.1, 0.2], "exponent": 1}, controls=[{"x_m": 140}]))
             rows = re.findall(r"\n  (?:without forest|current)  .*", good(*WHOLE, "-n", 300, path).out)
             result = good("--batch", "-f", "json", "-n", 300, path).json()[0]
-            backs = [hazard_of(result, side)["return"][3] for side in ("bare", "wooded")]
+            backs = [find_hazard(result, side)["return"][3] for side in ("bare", "wooded")]
             for row, back in zip(reversed(rows[-2:]), backs):
                 if back["energy_kJ"] is not None and back["lo"] is None and back["hi"] is not None:
                     expect(re.search(r" [\d.]+ \(0\u2013[\d.]+\)$", row), row, back)
@@ -412,7 +412,7 @@ def test_many():
         path = f.write("s.yaml", slope_site(forest=None, options=options, controls=[{"x_m": 140, "accepted_kJ": 50}]))
         page = " ".join(good(*WHOLE, path).out.split())
         result = good("--batch", "-f", "json", path).json()[0]
-        found = [hazard_of(result, "wooded", 0, i) for i in range(3)]
+        found = [find_hazard(result, "wooded", 0, i) for i in range(3)]
         best = min(range(3), key=lambda i: -found[i]["accepted_years"])
         expect_equal(best, 1)
         expect_in("'whole' lets the fewest dangerous rocks through", page)
@@ -426,7 +426,7 @@ def test_many():
 
 
 def test_means():
-    """Where the mean of the few that arrive is higher through the wood, the page says why; where it is lower it says nothing"""
+    """The page explains a mean energy that is higher with forest, and only then"""
     said = "The mean energy is higher with forest because stems stop the slower and smaller rocks first."
     with Folder() as f:
         for what in (slope_site(), slope_site(blocks=None)):

@@ -18,7 +18,7 @@ KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene
          "tui": "base scene core study io view model", "cli": "base scene core study io view model tui"}
 # The folders of core likewise.
 CORE = {"stand": "", "forest": "stand", "walk": "stand forest", "runs": "stand forest walk"}
-# The room of each public header: a header depends on what its room may use.
+# Room of each public header; a header can include whatever its room can.
 HEADERS = {"base": "flag", "scene": "rock scene slope stand status",
            "core": "adc alternative_law assess blocks fence hazard key pool record request result rotation run statistics trajectory variants years yield",
            "study": "calibrate uncertainty find naslund observe surface survey", "io": "ceduo read"}
@@ -35,7 +35,7 @@ CC = os.environ.get("CC", "cc")
 SANITIZERS = re.compile(r"__(asan|odr|tsan|ubsan)")
 
 
-def room_of(path):
+def find_room(path):
     if path.parts[0] == "src":
         return path.parts[1]
     return next((room for room, headers in HEADERS.items() if path.stem in headers.split()), "none")
@@ -56,11 +56,11 @@ def sources():
     return sorted(p.relative_to(ROOT) for folder in ("src", "include") for p in (ROOT / folder).rglob("*.[ch]"))
 
 
-def who_knows_whom():
-    bad = [f"{path} has no room in HEADERS" for path in sources() if room_of(path) == "none"]
+def forbidden_includes():
+    bad = [f"{path} has no room in HEADERS" for path in sources() if find_room(path) == "none"]
     for path in sources():
-        allowed = {room_of(path), *KNOWS.get(room_of(path), "").split()}
-        bad += [f"{path} includes {other}" for other in includes(path) if room_of(other) not in allowed]
+        allowed = {find_room(path), *KNOWS.get(find_room(path), "").split()}
+        bad += [f"{path} includes {other}" for other in includes(path) if find_room(other) not in allowed]
         if path.parts[:2] == ("src", "core"):
             known = {path.parts[2], *CORE[path.parts[2]].split()}
             bad += [f"{path} includes {other}" for other in includes(path)
@@ -91,11 +91,11 @@ def circles():
     return sorted(set(bad))
 
 
-def named_twice():
+def duplicate_names():
     """Within a room a file name is unique, whatever its folder."""
     found = defaultdict(list)
     for path in sources():
-        found[room_of(path), path.name].append(str(path))
+        found[find_room(path), path.name].append(str(path))
     return [" and ".join(paths) for paths in found.values() if len(paths) > 1]
 
 
@@ -104,39 +104,39 @@ def symbols(what, *files):
     return [line.split() for line in done.stdout.splitlines() if line.split() and not line.endswith(":")]
 
 
-def reached_for():
+def forbidden_functions():
     bad = []
     for room in SCIENCE:
-        for source in (path for path in sources() if room_of(path) == room and path.suffix == ".c"):
+        for source in (path for path in sources() if find_room(path) == room and path.suffix == ".c"):
             found = {words[-1] for words in symbols(["-u"], BUILD / source.with_suffix(".o"))}
             bad += [f"{source}: {name}" for name in sorted(found) if OUTSIDE.match(name)]
     return bad
 
 
-def differs_between_machines():
-    named = {f"{room_of(path)}/{path.stem}": path for path in sources() if path.suffix == ".c"}
+def machine_dependent_symbols():
+    named = {f"{find_room(path)}/{path.stem}": path for path in sources() if path.suffix == ".c"}
     laws = [name for name in named if name.startswith("core/energy_")]
     return [f"{named[name]}: {words[-1]}" for name in (*TRAJECTORY, *laws)
             for words in symbols(["-u"], BUILD / named[name].with_suffix(".o")) if DIFFERS.match(words[-1])]
 
 
-def exported():
+def wrong_exports():
     names = {words[2] for words in symbols(["-g", "--defined-only"], BUILD / "libceduo.a") if len(words) == 3}
     return sorted(name for name in names if not name.startswith("ceduo_") and not SANITIZERS.match(name))
 
 
-def knows_curses():
+def forbidden_curses():
     return [str(path) for path in sources() if path.stem != "terminal" and
             re.search(r"#include <(ncurses|curses)", (ROOT / path).read_text())]
 
 
-def formatted_otherwise():
+def unformatted_files():
     files = sorted(str(p) for folder in ("src", "include", "tests", "man") for p in (ROOT / folder).rglob("*.[ch]"))
     done = subprocess.run(["clang-format", "--dry-run", *files], stderr=subprocess.PIPE, text=True, cwd=ROOT)
     return sorted({line.split(":")[0] for line in done.stderr.splitlines() if "warning:" in line} | ({str(done.returncode)} - {"0"}))
 
 
-def stands_otherwise():
+def stale_changes():
     """Return the lines of tests/changes.txt that are not unique in their file: their change is no longer tried."""
     sys.path.insert(0, str(ROOT / "tests"))
     from changes import changes
@@ -170,7 +170,7 @@ static const struct field f[] = {FLAG("x", .shown = NAMED(""), MEMBER(ceduo_belt
 GOOD = (0, 3, 5, 6, 10, 13, 15, 18, 21)
 
 
-def compiles_otherwise():
+def wrong_compilations():
     bad = []
     for number, line in enumerate(COMPILES.splitlines()):
         unit = ('#include "base/hash.h"\n#include "scene/fields.h"\n'
@@ -184,7 +184,7 @@ def compiles_otherwise():
     return bad
 
 
-def without_default():
+def structs_without_default():
     """Return structs of the headers that a caller fills, without a function that returns a default."""
     text = "".join(p.read_text(encoding="utf-8") for p in sorted((ROOT / "include/ceduo").glob("*.h")))
     structs = re.findall(r"^struct (ceduo_(?:\w+_def|request|input|observation)) {", text, re.M)
@@ -195,24 +195,24 @@ READS = re.compile(r"(->|\.)((released|reached|exceeded|unfinished|missed|transl
                    r"(energy|speed)\.(mean|se|p\d+)|(reach|exceed)\.(lo|hi))")
 
 
-def reads_arrivals():
+def forbidden_readers_of_arrivals():
     """Above the science rooms only two files read struct ceduo_arrivals: the others use a measure."""
     bad = []
     for path in sources():
-        if room_of(path) in ("view", "tui", "cli") and path.name not in ("measure.c", "figures_result.c"):
+        if find_room(path) in ("view", "tui", "cli") and path.name not in ("measure.c", "figures_result.c"):
             bad += [f"{path}: {line.strip()}" for line in (ROOT / path).read_text().splitlines() if READS.search(line)]
     return bad
 
 
 def main():
-    tests = [("no hash of a pointer or struct compiles", compiles_otherwise),
-             ("each struct that a caller fills has a default", without_default),
-             ("each room knows only those it stands on", who_knows_whom), ("no file includes another that includes it", circles),
-             ("no two files of a room have one name", named_twice), ("scene and core reach for nothing outside", reached_for),
-             ("a rock's trajectory calls no function that differs between machines", differs_between_machines),
-             ("every exported symbol begins with ceduo_", exported), ("one file alone knows curses", knows_curses),
-             ("every file is as clang-format has it", formatted_otherwise), ("each line of changes.txt stands once", stands_otherwise),
-             ("two files of the upper rooms read what arrives", reads_arrivals)]
+    tests = [("no hash of a pointer or struct compiles", wrong_compilations),
+             ("each struct that a caller fills has a default", structs_without_default),
+             ("each room includes only rooms below it", forbidden_includes), ("includes form no cycle", circles),
+             ("file names are unique within a room", duplicate_names), ("scene and core call no function outside the library", forbidden_functions),
+             ("a rock's trajectory calls no function that differs between machines", machine_dependent_symbols),
+             ("every exported symbol begins with ceduo_", wrong_exports), ("only one file includes curses", forbidden_curses),
+             ("clang-format changes no file", unformatted_files), ("each line of changes.txt is unique in its file", stale_changes),
+             ("only two files of the upper rooms read arrivals", forbidden_readers_of_arrivals)]
     failed = 0
     for number, (name, test) in enumerate(tests, 1):
         bad = test()

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import DONE, INPUT, PROFILES, Failure, Folder, Suite, ceduo, expect, expect_equal, good, result, scene, tests_of
+from harness import DONE, INPUT, PROFILES, Failure, Folder, Suite, ceduo, expect, expect_equal, good, result, scene, list_tests
 from inputs import FILES, SCENE, STAND, check, expect_places, mutated
 
 
@@ -301,7 +301,7 @@ def test_random():
 
 def main():
     suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
+    suite.run(list_tests(sys.modules[__name__]))
     for name, old, new, *words in CASES:
         shown = ascii(new.replace("@@", ""))[1:-1]
         suite.check(f"{name}: {shown[:60]}{'...' if len(shown) > 60 else ''}: {', '.join(words)}", refused, name, old, new,

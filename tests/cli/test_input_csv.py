@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import Folder, Suite, expect, expect_equal, expect_in, good, result, scene, tests_of
+from harness import Folder, Suite, expect, expect_equal, expect_in, good, result, scene, list_tests
 from inputs import check, expect_places
 
 
@@ -141,7 +141,7 @@ def test_csv_and_vertices():
 
 def main():
     suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
+    suite.run(list_tests(sys.modules[__name__]))
     for content, place, words in CSV_CASES:
         suite.check(f"CSV {ascii(content[-40:])}: {words or 'refused'}", csv_refused, content, place, words)
     suite.end()

@@ -62,7 +62,7 @@ def test_decimal_commas():
             f.write("s.yaml", f"ceduo: scene/1\n{text}\n{GROUND}controls_m: [90]\n")
             lines = [line for line in check(f, "s.yaml").err.splitlines() if line.startswith("s.yaml")]
         expect(len(lines) == 1 and words in f"{lines[0]}\n", text, lines)
-    told("ceduo: scene/1\nrock: {diameter_m: ,6}\ncontrols_m: [90]\n" + GROUND, "rock.diameter_m: '' is not a number", "rock.6: unknown key")
+    expect_problems("ceduo: scene/1\nrock: {diameter_m: ,6}\ncontrols_m: [90]\n" + GROUND, "rock.diameter_m: '' is not a number", "rock.6: unknown key")
     expect_equal(good("--check", "-s", "title='0,5'", "-s", "title=0,5", "paper-site").err, "")
 
 
@@ -76,7 +76,7 @@ def test_all_at_once():
         expect_equal([p[1] for p in problems], [3, 4, 8], str(problems))  # the missing x_m follows from 'x'
 
 
-def told(text, *wanted, more=None):
+def expect_problems(text, *wanted, more=None):
     """Expect one problem for each of `wanted`, which it contains, and no others."""
     with Folder() as f:
         for name, content in {"s.yaml": text, "slope.yaml": SLOPE, "stand.yaml": STAND, **(more or {})}.items():
@@ -94,54 +94,54 @@ HEAD = "ceduo: scene/1\nrock: {diameter_m: 0.5}\n" + GROUND
 
 def test_all_without_reference():
     """A missing reference is one problem; all other parts are still checked"""
-    told("ceduo: scene/1\nrock: {diameter_m: -1}\n" + GROUND + "controls: [{x_m: 900}, {x_m: a}]\nforest:\n"
-         "  - {from_m: 10, to_m: 40, stand: nowhere}\n  - {from_m: 30, to_m: 70, stand: {base: nothing, shoots: [{per_ha: -7}]}}\n",
-         "cannot find 'nowhere'", "cannot find 'nothing'",
-         "rock.diameter_m: -1", "controls[0].x_m: 900 lies outside", "controls[1].x_m: 'a'",
-         "forest[1].from_m: belts must not overlap", "shoots[0].per_ha: -7")
-    told("ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: nowhere\ncontrols: [{x_m: 5}, {x_m: 5}]\n"
-         "forest: [{from_m: 40, to_m: 10, stand: stand.yaml}]\n",
-         "cannot find 'nowhere'", "controls[1].x_m: '5' is given twice", "forest[0].to_m: the end (10) must lie beyond the start")
-    told(HEAD + "controls_m: [75]\nforest: [{from_m: 10, to_m: 40, stand: bad.yaml}, {from_m: 40, to_m: 30, stand: bad.yaml}]\n",
-         "malformed YAML", "forest[1].to_m: the end (30) must lie beyond", more={"bad.yaml": "name: [\n"})
+    expect_problems("ceduo: scene/1\nrock: {diameter_m: -1}\n" + GROUND + "controls: [{x_m: 900}, {x_m: a}]\nforest:\n"
+                    "  - {from_m: 10, to_m: 40, stand: nowhere}\n  - {from_m: 30, to_m: 70, stand: {base: nothing, shoots: [{per_ha: -7}]}}\n",
+                    "cannot find 'nowhere'", "cannot find 'nothing'",
+                    "rock.diameter_m: -1", "controls[0].x_m: 900 lies outside", "controls[1].x_m: 'a'",
+                    "forest[1].from_m: belts must not overlap", "shoots[0].per_ha: -7")
+    expect_problems("ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: nowhere\ncontrols: [{x_m: 5}, {x_m: 5}]\n"
+                    "forest: [{from_m: 40, to_m: 10, stand: stand.yaml}]\n",
+                    "cannot find 'nowhere'", "controls[1].x_m: '5' is given twice", "forest[0].to_m: the end (10) must lie beyond the start")
+    expect_problems(HEAD + "controls_m: [75]\nforest: [{from_m: 10, to_m: 40, stand: bad.yaml}, {from_m: 40, to_m: 30, stand: bad.yaml}]\n",
+                    "malformed YAML", "forest[1].to_m: the end (30) must lie beyond", more={"bad.yaml": "name: [\n"})
 
 
 def test_all_with_values():
     """Inconsistent values are reported with wrong and missing values, if they are valid themselves"""
-    told("ceduo: scene/1\n", "'rock' is missing", "'slope' is missing", "'controls' is missing")
-    told("ceduo: scene/1\nrock: {shape: cube, height_m: 1}\nrelease: {x_m: b, height_m: -1}\n"
-         "slope: {vertices_m: [[0, 64], [50], [40, 20], [30, 0]], segments: [{rn: 2, rt: 0.8}, {rn: 0.3}], "
-         "materials: [{from_m: 0, to_m: 0, material: cliff}]}\n"
-         "controls: [{x_m: 9}, {x_m: 9, accepted_kJ: -1}]\n"
-         "forest: [{from_m: 10, to_m: x, stand: {stools: {per_ha: 9}, shoots: [{per_ha: 5, dbh_m: 1, height_m: 1}]}}, "
-         "{from_m: 9, to_m: 8, stand: {shoots: [{per_ha: 5, dbh_m: 0, height_m: 1}]}}]\n",
-         "rock.shape: 'cube'", "release.x_m: 'b'", "release.height_m: -1", "slope.vertices_m[1]: expected [x, z]",
-         "slope.vertices_m[3]: x must rise, but 30 follows 40", "2 segments for 3 stretches", "segments[0].rn: 2", "'rt' is missing",
-         "slope.materials: segments already says this", "controls[1].x_m: '9' is given twice", "controls[1].accepted_kJ: -1", "to_m: 'x'",
-         "'spacing_m' is missing", "5 shoots are too few for 9 stools", "forest[1].to_m: the end (8) must lie", "shoots without stools",
-         "dbh_m: 0 is not above")
-    told(HEAD + "release: {x_m: 99, vx_m_s: y}\ncontrols_m: [z, 75, 200, 75]\n"
-         "forest: [{from_m: -5, to_m: 200, stand: stand.yaml}]\n",
-         "release.vx_m_s: 'y'", "controls_m[0]: 'z'", "controls_m[1]: 75 must lie beyond the release",
-         "and 1 more of this kind, on line 5", "controls_m[2]: 200 lies outside", "forest[0].from_m: -5 lies outside",
-         "forest[0].to_m: 200 lies outside the slope")
-    told("ceduo: scene/1\nrock: {}\nslope: {vertices_m: [[0, 9], [9, 0]], materials: [{from_m: 0, to_m: 4, material: sand}, "
-         "{from_m: 5, to_m: 8, material: talus}]}\noptions: [{name: a}, {forest: b}, {name: a}]\n",
-         "one of diameter_m, volume_m3 and mass_kg", "'sand' is unknown", "materials[1].from_m: 5 leaves a gap",
-         "options[1]: 'name' is missing", "options[1].forest: expected a list", "options[2].name: 'a' is given twice",
-         "'controls' is missing")
+    expect_problems("ceduo: scene/1\n", "'rock' is missing", "'slope' is missing", "'controls' is missing")
+    expect_problems("ceduo: scene/1\nrock: {shape: cube, height_m: 1}\nrelease: {x_m: b, height_m: -1}\n"
+                    "slope: {vertices_m: [[0, 64], [50], [40, 20], [30, 0]], segments: [{rn: 2, rt: 0.8}, {rn: 0.3}], "
+                    "materials: [{from_m: 0, to_m: 0, material: cliff}]}\n"
+                    "controls: [{x_m: 9}, {x_m: 9, accepted_kJ: -1}]\n"
+                    "forest: [{from_m: 10, to_m: x, stand: {stools: {per_ha: 9}, shoots: [{per_ha: 5, dbh_m: 1, height_m: 1}]}}, "
+                    "{from_m: 9, to_m: 8, stand: {shoots: [{per_ha: 5, dbh_m: 0, height_m: 1}]}}]\n",
+                    "rock.shape: 'cube'", "release.x_m: 'b'", "release.height_m: -1", "slope.vertices_m[1]: expected [x, z]",
+                    "slope.vertices_m[3]: x must rise, but 30 follows 40", "2 segments for 3 stretches", "segments[0].rn: 2", "'rt' is missing",
+                    "slope.materials: segments already says this", "controls[1].x_m: '9' is given twice", "controls[1].accepted_kJ: -1", "to_m: 'x'",
+                    "'spacing_m' is missing", "5 shoots are too few for 9 stools", "forest[1].to_m: the end (8) must lie", "shoots without stools",
+                    "dbh_m: 0 is not above")
+    expect_problems(HEAD + "release: {x_m: 99, vx_m_s: y}\ncontrols_m: [z, 75, 200, 75]\n"
+                    "forest: [{from_m: -5, to_m: 200, stand: stand.yaml}]\n",
+                    "release.vx_m_s: 'y'", "controls_m[0]: 'z'", "controls_m[1]: 75 must lie beyond the release",
+                    "and 1 more of this kind, on line 5", "controls_m[2]: 200 lies outside", "forest[0].from_m: -5 lies outside",
+                    "forest[0].to_m: 200 lies outside the slope")
+    expect_problems("ceduo: scene/1\nrock: {}\nslope: {vertices_m: [[0, 9], [9, 0]], materials: [{from_m: 0, to_m: 4, material: sand}, "
+                    "{from_m: 5, to_m: 8, material: talus}]}\noptions: [{name: a}, {forest: b}, {name: a}]\n",
+                    "one of diameter_m, volume_m3 and mass_kg", "'sand' is unknown", "materials[1].from_m: 5 leaves a gap",
+                    "options[1]: 'name' is missing", "options[1].forest: expected a list", "options[2].name: 'a' is given twice",
+                    "'controls' is missing")
 
 
 def test_all_but_what_follows():
     """Consequences of another problem are not reported"""
-    told("ceduo: scene/1\nrock: {diametre_m: 0.5}\nslope: {vertices_m: 5, materials: 6}\ncontrol: [{x_m: 900}]\n"
-         "forest: [{from_m: 10, to_m: 400, stand: {stools: 7, shoots: [{per_ha: 9, dbh_m: 1, height_m: 1}]}}]\n",
-         "rock.diametre_m: unknown key", "slope.vertices_m: expected a list", "slope.materials: expected a list", "control: unknown key",
-         "stools: expected a mapping")
-    told(HEAD + "controls: 75\noptions: {}\n", "controls: expected a list", "options: expected a list")
-    told(HEAD.replace("segments: [{rn: 0.3, rt: 0.8}]", "csv: [x]") + "controls_m: [50]\n", "slope.csv: vertices_m already says this")
-    told(HEAD.replace("diameter_m: 0.5", "shape: 5, height_m: 9") + "release: 7\ncontrols_m: [50]\nforest: [9, {from_m: 8}]\n",
-         "rock.shape: '5'", "release: expected a mapping", "forest[0]: expected a mapping", "'to_m' is missing", "'stand' is missing")
+    expect_problems("ceduo: scene/1\nrock: {diametre_m: 0.5}\nslope: {vertices_m: 5, materials: 6}\ncontrol: [{x_m: 900}]\n"
+                    "forest: [{from_m: 10, to_m: 400, stand: {stools: 7, shoots: [{per_ha: 9, dbh_m: 1, height_m: 1}]}}]\n",
+                    "rock.diametre_m: unknown key", "slope.vertices_m: expected a list", "slope.materials: expected a list", "control: unknown key",
+                    "stools: expected a mapping")
+    expect_problems(HEAD + "controls: 75\noptions: {}\n", "controls: expected a list", "options: expected a list")
+    expect_problems(HEAD.replace("segments: [{rn: 0.3, rt: 0.8}]", "csv: [x]") + "controls_m: [50]\n", "slope.csv: vertices_m already says this")
+    expect_problems(HEAD.replace("diameter_m: 0.5", "shape: 5, height_m: 9") + "release: 7\ncontrols_m: [50]\nforest: [9, {from_m: 8}]\n",
+                    "rock.shape: '5'", "release: expected a mapping", "forest[0]: expected a mapping", "'to_m' is missing", "'stand' is missing")
 
 
 def stand_fault(body, *words, place=None, more=None):

@@ -166,7 +166,7 @@ def test_golden_wooded():
 
 
 def test_percentiles_in_closed_form():
-    """Rocks that leave a cliff at 8 to 12 m/s, uniform: each percentile is as many ranks from its bounds as in the binomial law"""
+    """Rocks leave a cliff at 8 to 12 m/s, uniform: the bounds of each percentile are at the ranks of the binomial distribution"""
     n = 20000
     site = scene(rock={"diameter_m": 1}, release={"vx_m_s": {"mean": 10, "spread": 2, "kind": "uniform"}}, controls=[{"x_m": 20}], forest=[],
                  slope={"vertices_m": [[0, 100], [1, 0], [60, 0]], "segments": [{"rn": 0, "rt": 0}]})

@@ -58,10 +58,10 @@ def test_without_translation():
 @functools.cache
 def shipped(*words):
     """Cached text of a file that never changes."""
-    return both(*words)
+    return run_both(*words)
 
 
-def both(*words):
+def run_both(*words):
     """Return output in English and in Italian."""
     return [good(*words, "--language", language).out for language in ("en", "it")]
 
@@ -186,10 +186,10 @@ def test_data():
     """JSON and CSV are the same bytes in every language"""
     for form in ("json", "csv"):
         for path in sorted((PROFILES / "scenes").glob("*.yaml")):
-            expect_equal(*map(without_seconds, both("--batch", "-f", form, "-n", 30, path)), f"{path.name}, {form}")
+            expect_equal(*map(without_seconds, run_both("--batch", "-f", form, "-n", 30, path)), f"{path.name}, {form}")
         for words in (("--sensitivity=3", "-n", 20, PAPER), ("--batch", "--years", "0:2", "-n", 20, FOUR),
                       ("--find", "forest[0].stand.stools.per_ha=500:5000", "--goal", "adc=30", PAPER)):
-            expect_equal(*map(without_seconds, both("-f", form, *words)), f"{words}, {form}")
+            expect_equal(*map(without_seconds, run_both("-f", form, *words)), f"{words}, {form}")
 
 
 
@@ -230,7 +230,7 @@ def test_shipped():
                         "slope: {vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\ncontrols_m: [75]\noptions:\n" +
                         "".join(f"  - {{name: {p.stem}, forest: [{{from_m: 0, to_m: 60, stand: {p.stem}}}]}}\n" for p in stands))
         for path in [*sorted((PROFILES / "scenes").glob("*.yaml")), every]:
-            english, italian = both(*WHOLE, "--years", "0:1", "-n", 1, path)
+            english, italian = run_both(*WHOLE, "--years", "0:1", "-n", 1, path)
             mine = {"made up here"} if path == every else set()
             found = [assumed(page) for page in (english, italian)]
             expect_equal(set(found[0]) & set(found[1]), mine, path.name)
@@ -263,22 +263,22 @@ def test_texts_of_files():
                  "forest: [{from_m: 10, to_m: 60, stand: STAND.yaml}]\n")
         for stand, texts in (("base", ("guessed", "stimato")), ("over", ("mine as well", "mine as well"))):
             path = f.write("s.yaml", scene.replace("STAND", stand))
-            for page, head, text in zip(both(*WHOLE, "-n", 5, path), ("plain", "piano"), texts):
+            for page, head, text in zip(run_both(*WHOLE, "-n", 5, path), ("plain", "piano"), texts):
                 expect_equal(page.splitlines()[0], head)
                 expect_in(text, page)
             expect(not {"stimato", "guessed"} & set(texts) or stand == "base", texts)
-        for page in both(*WHOLE, "-n", 5, "-s", "title=other", path):
+        for page in run_both(*WHOLE, "-n", 5, "-s", "title=other", path):
             expect_equal(page.splitlines()[0], "other")
             expect("guessed" not in page and "stimato" not in page, page)
-        italian = both(*WHOLE, "-n", 5, "-s", "title=other", "-s", "title_it=altro", path)[1]
+        italian = run_both(*WHOLE, "-n", 5, "-s", "title=other", "-s", "title_it=altro", path)[1]
         expect_equal(italian.splitlines()[0], "altro")
-        expect_equal([json.loads(out)["title"] for out in both("--batch", "-f", "json", "-n", 5, path)], ["plain"] * 2)
+        expect_equal([json.loads(out)["title"] for out in run_both("--batch", "-f", "json", "-n", 5, path)], ["plain"] * 2)
 
 
 def test_pictures():
     """Pictures have the same shape in both languages"""
     for what in ("profile", "energy", "height", "histogram", "stand", "compare"):
-        english, italian = both("--plot", what, "-n", 50, "--option", "coppice with standards", FOUR)
+        english, italian = run_both("--plot", what, "-n", 50, "--option", "coppice with standards", FOUR)
         expect_width(italian)
         expect_equal(len(italian.splitlines()), len(english.splitlines()), what)
 

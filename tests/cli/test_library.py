@@ -11,10 +11,10 @@ import subprocess
 
 from harness import ROOT, Folder, Skip, ceduo, environment, expect, expect_equal, run_all
 from test_install import VARIANT, make
-from test_workflows import RUN, plain
+from test_workflows import RUN, render_literal
 
 PAGE = ROOT / "man/ceduo.3"
-SOURCE, COMMANDS, OUTPUT, STATIC = [plain(body) for _, body in RUN.findall(PAGE.read_text(encoding="utf-8"))]
+SOURCE, COMMANDS, OUTPUT, STATIC = [render_literal(body) for _, body in RUN.findall(PAGE.read_text(encoding="utf-8"))]
 CC = os.environ.get("CC", "cc")
 STRICT = "-std=c17 -Wall -Wextra -Wpedantic -Wconversion -Werror"
 # Further needs of a program, besides ceduo.pc, with a special build of the library.

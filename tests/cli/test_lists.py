@@ -10,7 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (INPUT, PROFILES, USAGE, Folder, Suite, ceduo, expect, expect_equal, expect_in, expect_near, good, result, validator,
-                     scene, stand, tests_of)
+                     scene, stand, list_tests)
 from runs import PAPER
 
 
@@ -184,7 +184,7 @@ def test_no_terminal():
 
 def main():
     suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
+    suite.run(list_tests(sys.modules[__name__]))
     for arguments in BAD_USAGE:
         shown = " ".join(ascii(str(a))[1:-1] if a != PAPER else a.name for a in arguments)
         suite.check(f"ceduo {shown}: status 2, one line and where the help is", bad_usage, *arguments)

@@ -25,7 +25,7 @@ def expect_same_means(*pages):
     pairs = [[number for pair in MEAN.findall(" ".join(page.split())) for number in pair] for page in pages]
     expect_equal(*(len(p) for p in pairs), "numbers beside an error")
     for one, other in zip(*pairs):
-        if one == other == "-":  # so few rocks give no error
+        if one == other == "-":  # too few rocks for an error
             continue
         numbers = [re.fullmatch(r"[(>]?([+-]?\d+(?:\.(\d+))?)[,.;:)]*", n) for n in (one, other)]
         expect(all(numbers), "no number with a dot:", one, other)

@@ -17,12 +17,12 @@ done
 italian=${BUILD:-build/release}/man/it
 pages="ceduo.1 ceduo-output.5 ceduo-terminal.7 ceduo-workflows.7"
 for page in $pages; do
-    mandoc -Tlint -W warning "$italian/$page" 2>&1 | grep -v 'new sentence, new line' >"$dir/lint" # po4a fills its lines
+    mandoc -Tlint -W warning "$italian/$page" 2>&1 | grep -v 'new sentence, new line' >"$dir/lint" # po4a breaks lines itself
     [ ! -s "$dir/lint" ]
     say $? "the Italian $page has no warning"
     sed 's/^/# /' "$dir/lint"
 done
-# What is not translated stands in English in the Italian page.
+# Untranslated text is in English in the Italian page.
 po4a -v -f --no-update --variable build="$dir" src/po/man/po4a.cfg >"$dir/po4a" 2>&1
 grep -q 'ceduo-workflows.7 is 100% translated' "$dir/po4a"
 say $? "all of ceduo-workflows.7 is translated"
@@ -41,8 +41,8 @@ say $? "the keys of the Italian ceduo-terminal.7 are those of the program (make 
 tests/bench/tables.py --check man/ceduo-accuracy.7 man/ceduo-validation.7 README.md >"$dir/stale"
 say $? "what the benches found stands in the pages (make tables)"
 sed 's/^/# /' "$dir/stale"
-# What is typed is the same in every language, but in the survey, which test_workflows.py plays in both; what ceduo-output(5) shows
-# test_pages.py compares with the program in both.
+# Commands are the same in every language, except in the survey, which test_workflows.py runs in both. Samples of ceduo-output(5)
+# are compared with the program by test_pages.py, in both.
 for page in $pages; do
     python3 - "$italian/$page" "man/$page" <<'PYTHON'
 import re, sys

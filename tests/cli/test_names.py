@@ -147,32 +147,32 @@ def test_option_doubled():
 
 
 def test_profiles_in_several_places():
-    """Of profiles with equal names the first one wins: next to the scene, the user's own, the program's"""
+    """The first profile of a name is used: next to the scene, the user's own, the program's"""
     with Folder() as f:
         f.write("scenes/s.yaml", scene(forest=[{"from_m": 10, "to_m": 20, "stand": "ads-1.yaml"},
                                                {"from_m": 30, "to_m": 40, "stand": "ads-1"},
                                                {"from_m": 50, "to_m": 60, "stand": "../stands/ads-1.yaml"}]))
-        def taken(**options):
+        def used_names(**options):
             return [s["name"] for s in result("scenes/s.yaml", "-n", 1, cwd=f.path, env={"XDG_DATA_HOME": str(f.path / "data")},
                                               **options)["options"][0]["stands"]]
-        def put(name, title):
+        def write_stand(name, title):
             f.write(name, stand(ceduo="stand/1", name=title))
-        expect_equal(taken(), ["ADS 1"] * 3, "the program's")
-        put("ads-1.yaml", "in the current folder")  # not of a scene
-        put("data/stands/ads-1.yaml", "in the folder above the own profiles")
-        expect_equal(taken(), ["ADS 1"] * 3, "not profiles")
-        put("data/ceduo/stands/ads-1.yaml", "own")
-        expect_equal(taken(), ["own"] * 3)
-        put("data/ceduo/ads-1.yaml", "own, of no kind")  # the exact path precedes the folder of its kind
-        expect_equal(taken(), ["own, of no kind", "own", "own"])
-        put("data/ceduo/stands/ads-1", "own, without .yaml")
-        expect_equal(taken(), ["own, of no kind", "own, without .yaml", "own"])
-        put("scenes/ads-1.yaml", "beside")
-        expect_equal(taken(), ["beside", "own, without .yaml", "own"])
-        put("scenes/ads-1", "beside, without .yaml")
-        expect_equal(taken(), ["beside", "beside, without .yaml", "own"])
-        put("stands/ads-1.yaml", "where it says")
-        expect_equal(taken(), ["beside", "beside, without .yaml", "where it says"])
+        expect_equal(used_names(), ["ADS 1"] * 3, "the program's")
+        write_stand("ads-1.yaml", "in the current folder")  # not of a scene
+        write_stand("data/stands/ads-1.yaml", "in the folder above the own profiles")
+        expect_equal(used_names(), ["ADS 1"] * 3, "not profiles")
+        write_stand("data/ceduo/stands/ads-1.yaml", "own")
+        expect_equal(used_names(), ["own"] * 3)
+        write_stand("data/ceduo/ads-1.yaml", "own, of no kind")  # the exact path precedes the folder of its kind
+        expect_equal(used_names(), ["own, of no kind", "own", "own"])
+        write_stand("data/ceduo/stands/ads-1", "own, without .yaml")
+        expect_equal(used_names(), ["own, of no kind", "own, without .yaml", "own"])
+        write_stand("scenes/ads-1.yaml", "beside")
+        expect_equal(used_names(), ["beside", "own, without .yaml", "own"])
+        write_stand("scenes/ads-1", "beside, without .yaml")
+        expect_equal(used_names(), ["beside", "beside, without .yaml", "own"])
+        write_stand("stands/ads-1.yaml", "where it says")
+        expect_equal(used_names(), ["beside", "beside, without .yaml", "where it says"])
 
 
 def test_scenes_in_several_places():

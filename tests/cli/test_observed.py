@@ -173,7 +173,7 @@ def test_tables():
     accepted({"speed": {"x_m": 50, "values": "v.csv", "column": "v"}}, ("v.csv", "t,v\n1,4\n2,5\n"))
 
 
-def seen(observed, *files):
+def observed_stops(observed, *files):
     """Number and mean of the observed stops, as a calibration prints them"""
     with Folder() as f:
         for name, text in files:
@@ -188,23 +188,23 @@ def test_tables_of_offices():
     """Stops as a GIS, a spreadsheet and a field book write them; map coordinates are no distance; `only` may be a number"""
     listed = [40.5, 51.25, 47, 66]
     rows = "".join(f"{i};{x};{1 + i % 2}\n" for i, x in enumerate(listed))
-    wanted = seen({"x_m": listed})
+    wanted = observed_stops({"x_m": listed})
     expect_equal(wanted[0], 4)
     for head in ("id;x_m;block", "n;Distanza (m);blocco", "id;progressiva;b", "id;chainage;b", "Rilievo di maggio;;\nid;dist m;b",
                  "id;Entfernung [m];b", "id;distance;b\n;(m);", "sep=;\nid;x;b"):
         for text in (rows, rows.replace(".", ",")):
-            expect_equal(seen({"csv": "t.csv"}, ("t.csv", head + "\n" + text)), wanted, head)
+            expect_equal(observed_stops({"csv": "t.csv"}, ("t.csv", head + "\n" + text)), wanted, head)
     for text in ("40.5\n51.25\n47\n66\n", "40,5\n51,25\n47\n66\n".replace(",", "."), "where\n40.5\n51.25\n47\n66\n", '"40,5"\n"51,25"\n47\n66\n'):
-        expect_equal(seen({"csv": "t.csv"}, ("t.csv", text)), wanted, text)
-    two = seen({"x_m": [51.25, 66]})
+        expect_equal(observed_stops({"csv": "t.csv"}, ("t.csv", text)), wanted, text)
+    two = observed_stops({"x_m": [51.25, 66]})
     for only in ("b=2", "b = 2", "b=2.0", "B = 2.00"):
-        expect_equal(seen({"csv": "t.csv", "only": only}, ("t.csv", "id;x;b\n" + rows)), two, only)
-    expect_equal(seen({"csv": "t.csv", "only": "b=2"}, ("t.csv", "id;x;b\n" + rows.replace(";2\n", ";2.0\n"))), two)
+        expect_equal(observed_stops({"csv": "t.csv", "only": only}, ("t.csv", "id;x;b\n" + rows)), two, only)
+    expect_equal(observed_stops({"csv": "t.csv", "only": "b=2"}, ("t.csv", "id;x;b\n" + rows.replace(";2\n", ";2.0\n"))), two)
     plan = "id,x_m,y_m,runout_m\n1,700040,4800000,40.5\n2,700051,4800003,51.25\n3,700047,4800001,47\n4,700066,4800009,66\n"
     for head in ("id,x_m,y_m,runout_m", "id,x,y,runout_m", "id,x,northing,runout_m", "id,X (m),Y (m),runout_m"):
         text = plan.replace("id,x_m,y_m,runout_m", head)
         refused("x and y are coordinates on a map; name the column with the distance", {"stops": {"csv": "t.csv"}}, ("t.csv", text))
-        expect_equal(seen({"csv": "t.csv", "column": "runout_m"}, ("t.csv", text)), wanted, head)
+        expect_equal(observed_stops({"csv": "t.csv", "column": "runout_m"}, ("t.csv", text)), wanted, head)
     for text, words in (("id;x\n1;40.5\n2;51,25\n", "t.csv:3:3: the decimal sign of '51,25' is not the dot of line 2"), ("id;x\n1;1.040\n2;1.051\n", "two ways"),
                         ("id,x\n1,40,5\n2,51,2\n", "more columns"), ('id;x;b\n1;40;a"\n2;50;a\n', "a stray quote in this cell"), ("id;x\n1;NA\n2;9\n", "'NA' is not a number"),
                         ('id;x\n1;"40\n2;50\n', "this quote is not closed"), ('id;x\n1;"40"5\n', "text after a closing quote")):

@@ -75,7 +75,7 @@ def test_no_stems_on_the_way():
 
 
 def test_duplicate_option():
-    """An option under another name shares its run: no more rocks, equal figures, a difference of exactly 0"""
+    """An option under another name shares its run: no additional rocks, equal figures, a difference of exactly 0"""
     with Folder() as f:
         options = [{"name": n, "forest": [belt(10, 95, **({} if n != "other" else {"trees": []}))]}
                    for n in ("first", "other", "again", "renamed stand")]

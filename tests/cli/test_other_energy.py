@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import Folder, belt, expect, expect_equal, expect_in, good, result, run_all, stand, wooded_scene
-from pages import WHOLE, digits, of_1000
+from pages import WHOLE, digits, share_per_1000
 from runs import FOUR, PAPER, through
 
 TWO_CUTS = ("--option", "selection coppice, just cut", "--option", "large reserves, just cut")
@@ -82,8 +82,8 @@ def test_page():
                          r"With the energy law dorren: {reach} of 1000 arrive; their mean is {mean} ±{half} kJ\.")):
         other = result(PAPER, "-n", 800, *more)["options"][0]["controls"][0]["other_energy"]
         page = " ".join(good(*WHOLE, "-n", 800, PAPER, *more).out.split())
-        exceed = re.escape(of_1000("exceed", other)) if other["exceed_probability"] is not None else ""
-        wanted = words.format(reach=re.escape(of_1000("reach", other)), exceed=exceed, mean=f"{other['energy_kJ']['mean']:.1f}",
+        exceed = re.escape(share_per_1000("exceed", other)) if other["exceed_probability"] is not None else ""
+        wanted = words.format(reach=re.escape(share_per_1000("reach", other)), exceed=exceed, mean=f"{other['energy_kJ']['mean']:.1f}",
                               half=digits(1.963 * other["energy_kJ"]["se"], 2))  # 1.963: Student's t of some 690 rocks
         expect(re.search(wanted, page), wanted, page)
     none = good(*WHOLE, "-n", 5, PAPER, "-s", "forest[0].stand.trees[0].dbh_m=2", "-s", "forest[0].stand.trees[0].volume_m3=9").out
@@ -91,7 +91,7 @@ def test_page():
 
 
 def test_order():
-    """Page: of two options whose order the two laws reverse it is said; two that both laws rank alike are not named"""
+    """The page names two options if the two laws rank them in opposite order, and only then"""
     run = result(FOUR, "-n", 10000, *TWO_CUTS)
     shares = [[round(1000 * c[k]["exceed_probability"]) for k in ("wooded", "other_energy")]
               for c in (o["controls"][0] for o in run["options"])]

@@ -13,7 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import FULL, ROOT, Folder, expect, expect_equal, good, run_all  # noqa: E402
-from test_workflows import Machine, plain  # noqa: E402
+from test_workflows import Machine, render_literal  # noqa: E402
 
 PAGES = sorted(p for p in (ROOT / "man").glob("*.[157]") if p.name != "ceduo-workflows.7")
 SLOW = () if FULL else ("ceduo-model.7", "ceduo-validation.7")  # a million rocks; a fit of some minutes
@@ -27,9 +27,9 @@ def troff(text):
     return re.sub(r"^(?=[.'])", lambda m: "\\&", text, flags=re.M)
 
 
-def shown(text):
+def render(text):
     """Return text as its reader sees it."""
-    return plain(re.sub(r"\\\[u([0-9A-F]{4})\]", lambda m: chr(int(m[1], 16)), text))
+    return render_literal(re.sub(r"\\\[u([0-9A-F]{4})\]", lambda m: chr(int(m[1], 16)), text))
 
 
 UNDERSTOOD = r"[\w.-]+: (columns that are set: |colonne impostate: |\d+ plots |\d+ saggi )"  # on standard error
@@ -40,7 +40,7 @@ def played(page, **more):
     with Folder() as work, Machine() as machine:
         printed = ""
         for m in MARKED.finditer(page.read_text(encoding="utf-8")):
-            what, name, body = m[1], (m[2] or "").strip(), shown(m[4])
+            what, name, body = m[1], (m[2] or "").strip(), render(m[4])
             if what == "run":
                 done = machine.run(body, work.path, **more)
                 others = [line for line in done.stderr.splitlines() if not re.match(UNDERSTOOD, line)]
@@ -76,7 +76,7 @@ def test_all_are_marked():
         expect(not CEDUO.search(rest), f"{page.name}:", rest)
 
 
-def by_key(text):
+def split_by_key(text):
     """Return the lines of each key of a file."""
     return dict(re.findall(r"^(\w+)(:.*?\n)(?=\w|\Z)", re.sub(r"^#.*\n", "", text, flags=re.M), re.M | re.S))
 
@@ -85,14 +85,14 @@ def test_files():
     """Every file that a page shows is valid, also with each further key that it shows"""
     count = 0
     for page in PAGES:
-        displays = [(m[1], (m[2] or "").strip(), shown(m[4])) for m in MARKED.finditer(page.read_text(encoding="utf-8"))]
+        displays = [(m[1], (m[2] or "").strip(), render(m[4])) for m in MARKED.finditer(page.read_text(encoding="utf-8"))]
         with Folder() as f:
             files = [(name, body) for what, name, body in displays if what == "file" and name.endswith(".yaml")]
             for name, body in files:
                 f.write(name, body)
             for what, _, body in displays:
                 if what == "keys":
-                    keys = {**by_key(files[0][1]), **by_key(body)}
+                    keys = {**split_by_key(files[0][1]), **split_by_key(body)}
                     if "options" in keys:
                         keys.pop("forest")
                     files.append((f.write(f"with-{count}.yaml", "".join(map("".join, keys.items()))).name, ""))

@@ -83,7 +83,7 @@ def test_sheets():
             expect_read(f, name, (SHEETS / name).read_bytes(), vertices, words, **slope)
 
 
-def points_of(name, text):
+def expected_points(name, text):
     return {"excel-german-two-ways.csv": [[x, int(z)] for x, z in HIGHER]}.get(name, POINTS)
 
 

@@ -27,9 +27,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (CEDUO, DONE, INPUT, RUN, SANITIZED, SLOWER, Failure, Folder, Suite, ceduo, expect,  # noqa: E402
-                     expect_equal, expect_schema, good, no_constant, without_unusual, of_today)
+                     expect_equal, expect_schema, good, no_constant, without_unusual, option_today)
 import random_scenes  # noqa: E402
-from pages import arrivals_of  # noqa: E402
+from pages import parse_arrivals  # noqa: E402
 from runs import is_formula  # noqa: E402
 
 SCENES = int(os.environ.get("SCENES") or (500 if os.environ.get("FULL") else 250))
@@ -74,12 +74,12 @@ def kinds_of_pictures():
 
 # ---- numbers ----
 
-def near(a, b, relative=1e-9, absolute=1e-290):
+def is_near(a, b, relative=1e-9, absolute=1e-290):
     return abs(a - b) <= relative * max(abs(a), abs(b)) + absolute
 
 
 def expect_close(found, wanted, what, **tolerance):
-    expect(found is not None and wanted is not None and near(found, wanted, **tolerance),
+    expect(found is not None and wanted is not None and is_near(found, wanted, **tolerance),
            f"{what}: found {found!r}, wanted {wanted!r}")
 
 
@@ -120,7 +120,7 @@ def strings(value):
 
 # ---- properties of a scene, computed from its files ----
 
-def mean_of(value):
+def mean_value(value):
     return value["mean"] if isinstance(value, dict) else value
 
 
@@ -132,18 +132,18 @@ def varies(value):
 
 def mean_diameter(rock):
     shape = rock.get("shape", "sphere")
-    sizes = {key: mean_of(rock[key]) for key in ("diameter_m", "height_m", "volume_m3", "mass_kg", "density_kg_m3") if key in rock}
+    sizes = {key: mean_value(rock[key]) for key in ("diameter_m", "height_m", "volume_m3", "mass_kg", "density_kg_m3") if key in rock}
     if shape == "cylinder":
         return (sizes["diameter_m"] + sizes["height_m"]) / 2
     if shape != "sphere":
-        return sum(map(mean_of, rock["axes_m"])) / 3
+        return sum(map(mean_value, rock["axes_m"])) / 3
     if "diameter_m" in sizes:
         return sizes["diameter_m"]
     volume = sizes["volume_m3"] if "volume_m3" in sizes else sizes["mass_kg"] / sizes.get("density_kg_m3", 2600)
     return (6 * volume / math.pi) ** (1 / 3)
 
 
-def ground_at(case, x, within=0):
+def lowest_ground(case, x, within=0):
     """Return the lowest ground near x: the x of a control is exact only to its last bits."""
     xs, zs = case.xs, case.zs
     slack = 8 * EPSILON * max(abs(xs[0]), abs(xs[-1])) + within
@@ -161,24 +161,24 @@ def most_energy(case, result, x):
     """Return the maximum energy (J) of a rock at x: its release energy and its fall. NaN if rocks differ."""
     scene = case.scene
     release = scene.get("release", {})
-    turns = result["law"] == "arm" and mean_of(release.get("spin_rad_s", 0)) != 0  # each with the moment of its own section
+    turns = result["law"] == "arm" and mean_value(release.get("spin_rad_s", 0)) != 0  # each with the moment of its own section
     if varies(scene["rock"]) or varies(release) or turns or case.xs[-1] - case.xs[0] < 1e-290:  # few bits of an x remain
         return math.nan
-    mean = {key: mean_of(value) for key, value in release.items() if key.endswith(("_m", "_s"))}
+    mean = {key: mean_value(value) for key, value in release.items() if key.endswith(("_m", "_s"))}
     speed2 = mean.get("vx_m_s", 0) ** 2 + mean.get("vz_m_s", 0) ** 2
     rock, gravity = result["rock"], scene["simulation"].get("gravity_m_s2", 9.81)
     spin = mean.get("spin_rad_s", 0) if result["law"] != "lumped" else 0
-    start = max(ground_at(case, case.start), highest_ground_at(case, case.start)) + mean.get("height_m", 0)
+    start = max(lowest_ground(case, case.start), highest_ground(case, case.start)) + mean.get("height_m", 0)
     off = case.tolerance  # each point of the simplified profile lies near one of the profile; the release lies on both
-    fall = start - ground_at(case, x, off) + off
+    fall = start - lowest_ground(case, x, off) + off
     room = 1e-9 * (abs(start) + abs(fall)) * gravity
     return rock["mass_kg"] * (speed2 / 2 + gravity * fall + room) + rock["moment_kg_m2"] * spin ** 2 / 2
 
 
-def highest_ground_at(case, x):
+def highest_ground(case, x):
     turned = random_scenes.Case(0)
     turned.xs, turned.zs = case.xs, [-z for z in case.zs]
-    return -ground_at(turned, x)
+    return -lowest_ground(turned, x)
 
 
 def check_slope(case, slope):
@@ -277,7 +277,7 @@ def check_index(result, control, what):
     if max(mean, index["dissipated_kJ"]) > 0:  # in kJ the smallest energies round to 0
         expect_equal(index["exhausted"], mean < index["dissipated_kJ"], f"{what}: exhausted, {mean!r} {index}")
     left = max(0, mean - index["dissipated_kJ"])
-    expect(near(index["residual_kJ"], left, absolute=1e-12 * mean + 1e-290), f"{what}: residual {index}, mean {mean!r}")
+    expect(is_near(index["residual_kJ"], left, absolute=1e-12 * mean + 1e-290), f"{what}: residual {index}, mean {mean!r}")
 
 
 def check_lights(control, what):
@@ -327,12 +327,12 @@ def with_per_ha(stand):
                          for key in ("shoots", "trees") if key in stand}}
 
 
-def stems_of(stand):
+def existing_stems(stand):
     return [s for s in stand.get("shoots", []) + stand.get("trees", []) if s["per_ha"] > 0]
 
 
 def has_obstacles(stand):
-    return bool(stems_of(stand)) or any(stand.get(low, {}).get("per_ha", 0) > 0 for low in ("stumps", "logs"))
+    return bool(existing_stems(stand)) or any(stand.get(low, {}).get("per_ha", 0) > 0 for low in ("stumps", "logs"))
 
 
 def has_low(s):
@@ -346,7 +346,7 @@ def is_met(s):
 def expect_width(found, sum_of_widths, what):
     """Expect an ADC, m, to follow from the sum of widths per hectare."""
     adc = 1e4 / sum_of_widths if sum_of_widths > 0 else math.inf
-    expect(found is None if math.isinf(adc) else near(found, adc), f"{what}: found {found!r}, wanted {adc!r}")
+    expect(found is None if math.isinf(adc) else is_near(found, adc), f"{what}: found {found!r}, wanted {adc!r}")
 
 
 def low_width(stand, b):
@@ -382,7 +382,7 @@ def check_adc(stand, s, b, least, what):
 
 def check_own_stand(stand, s, b, least, what):
     """Check the figures of a stand as in its file."""
-    stems = stems_of(stand)
+    stems = existing_stems(stand)
     expect_close(s["stems_per_ha"], sum(t["per_ha"] for t in stems), f"{what}: stems_per_ha")
     expect_close(s["trees_per_ha"], sum(t["per_ha"] for t in stand.get("trees", [])), f"{what}: trees_per_ha")
     expect_close(s["stools_per_ha"], stand.get("stools", {}).get("per_ha", 0), f"{what}: stools_per_ha")
@@ -533,7 +533,7 @@ def check_differences(result):
                     expect(d[key]["se"] is None or d[key]["se"] >= 0, d)
 
 
-def unfinished_of(result):
+def count_unfinished(result):
     """Return the number as in the warning."""
     said = [re.match(r"(\d+) rocks? .* counts? as unfinished", w) for w in result["warnings"]]
     return sum(int(m[1]) for m in said if m)
@@ -556,7 +556,7 @@ def check_result(case, result, rocks):
         check_option(case, result, option, i)
     check_differences(result)
     worst = max(o["ends"]["unfinished"] for o in result["options"])
-    expect(worst <= unfinished_of(result), f"{worst} rocks unfinished, warnings {result['warnings']}")
+    expect(worst <= count_unfinished(result), f"{worst} rocks unfinished, warnings {result['warnings']}")
     work = result["work"]
     expect(all(isinstance(work[k], int) and work[k] >= 0 for k in work if k != "seconds") and work["seconds"] >= 0, work)
 
@@ -594,7 +594,7 @@ def check_years(case, result, plain):
                 {k: v for k, v in plain.items() if k not in ("work", "options")}, "the run beside the years")
     for i, (option, before) in enumerate(zip(result["options"], plain["options"])):
         what = f"option {i}"
-        expect_same(of_today(option), of_today(before), f"{what}: the run beside the years")
+        expect_same(option_today(option), option_today(before), f"{what}: the run beside the years")
         expect_equal([y["year"] for y in option["years"]], list(range(first, last + 1, step)), f"{what}: years")
         for y in option["years"]:
             here = f"{what}, year {y['year']}"
@@ -607,7 +607,7 @@ def check_years(case, result, plain):
 
 # ---- CSV ----
 
-def rows_of(text, what):
+def read_rows(text, what):
     """Return rows with one header and the same number of cells each."""
     rows = list(csv.reader(io.StringIO(text, newline=""), strict=True))
     expect(rows, f"{what}: no header")
@@ -620,13 +620,13 @@ def rows_of(text, what):
 
 
 @functools.cache
-def keys_of(path):
+def split_path(path):
     return tuple(re.findall(r"[^.\[\]]+", path))
 
 
-def look_up(value, path):
+def find_value(value, path):
     """Return the value at a path of JSON; None if part of it is null or missing."""
-    for key in keys_of(path):
+    for key in split_path(path):
         if isinstance(value, list):
             value = value[int(key)]
         else:
@@ -650,15 +650,15 @@ def expect_cell(cell, value, what):
 def compare_row(row, parts, skip, what):
     """Compare a CSV row with the JSON objects of its columns; the first object with the column counts."""
     for name, cell in row.items():
-        group = keys_of(name)[0]
+        group = split_path(name)[0]
         if group in skip:
             continue
         holder = next((p for p in parts if group in p), None)
         expect(holder or cell == "", f"{what}: nothing in JSON for {name} = {cell!r}")
-        expect_cell(cell, look_up(holder, name), f"{what}: {name}")
+        expect_cell(cell, find_value(holder, name), f"{what}: {name}")
 
 
-def warnings_of(result, stands):
+def join_warnings(result, stands):
     return "; ".join(result["warnings"] + [w for s in stands for w in s["warnings"]])
 
 
@@ -673,7 +673,7 @@ def compare_controls(case, result, rows, years):
                 row = next(rows, None)
                 what = f"CSV of option {i}, control {k}" + (f", year {year['year']}" if year else "")
                 expect(row is not None, f"{what}: no row")
-                own = {"option": option["name"], "summary": at["summary"], "warnings": warnings_of(result, at["stands"])}
+                own = {"option": option["name"], "summary": at["summary"], "warnings": join_warnings(result, at["stands"])}
                 if year:
                     own.update({"year": year["year"], "cut": year["cut"]})
                 elif i > 0:
@@ -704,7 +704,7 @@ def columns(line):
     return sum(0 if unicodedata.combining(c) else 2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in line)
 
 
-def of_1000(a, key):
+def format_per_1000(a, key):
     p, lo, hi = a[f"{key}_probability"], a[f"{key}_lo"], a[f"{key}_hi"]
     return "-" if p is None else f"{p * 1000:.0f} ({math.floor(lo * 1000)}–{math.ceil(hi * 1000)})"
 
@@ -724,10 +724,10 @@ def expect_shown(cell, value, what):
 
 
 def check_rows(rows, a, what):
-    """The figures of one side of a table of what arrives."""
+    """Check the figures of one side of a table of arrivals."""
     named = {re.sub(r"^(arrive with more than|above) .* kJ$", "exceed", name): cell for name, cell in rows.items()}
     expect("…" not in "".join(rows.values()), f"{what}: a figure is cut: {rows!r}")
-    expect_equal((named.get("exceed", "-"), named["arrive"]), (of_1000(a, "exceed"), of_1000(a, "reach")), what)
+    expect_equal((named.get("exceed", "-"), named["arrive"]), (format_per_1000(a, "exceed"), format_per_1000(a, "reach")), what)
     for name, value in (("mean energy of those that arrive, kJ", a["energy_kJ"]["mean"]), ("95 % stay below, kJ", a["energy_kJ"]["p95"]),
                         ("mean speed of those that arrive, m/s", a["speed_m_s"]["mean"])):
         expect_shown(re.split("[ ±]", named.get(name, "-"))[0], value, f"{what}: {name}")
@@ -744,7 +744,7 @@ def check_page(case, lines, result):
     head = f"Rocks    {result['rocks']}, seed {result['seed']}"
     expect(head in lines, f"the page: {head!r} is missing")
     often = next((i for i, line in enumerate(lines) if line.startswith("How often, ")), len(lines))
-    tables = iter(arrivals_of("\n".join(lines[:often])))
+    tables = iter(parse_arrivals("\n".join(lines[:often])))
     verdicts = iter([m for m in map(VERDICT.match, lines) if m])
     several = len(result["options"]) > 1  # arrivals without forest come once, before them
     bare = [{"name": "", "controls": result["options"][0]["controls"]}] if several else []
@@ -887,7 +887,7 @@ class Chunk:
 
     def expect_status(self, calls, results, refused):
         for done, indices in calls:
-            bad = any(unfinished_of(results[i]) * 1000 > results[i]["rocks"] for i in indices if i in results)
+            bad = any(count_unfinished(results[i]) * 1000 > results[i]["rocks"] for i in indices if i in results)
             expect_equal(done.status, INPUT if any(i in refused for i in indices) else RUN if bad else DONE, f"status of {done}")
 
     # ---- one by one ----
@@ -940,12 +940,12 @@ class Chunk:
                     self.check(i, check_result, case, results[i], case.rocks)
             of = [i for i in self.choose_rocks(results, 10 * WORK) if results[i]["rocks"] > self.cases[i].rocks]
         self.count["fewer rocks"] += sum(case.rocks < case.wanted for case in self.cases.values())
-        self.count["unfinished"] += sum(unfinished_of(r) > 0 for r in results.values())
+        self.count["unfinished"] += sum(count_unfinished(r) > 0 for r in results.values())
         return results
 
     def in_csv(self, results, *arguments, years=False, stands=False, of=None):
         calls = self.call("--batch", "-f", "csv", *arguments, *(["--rows", "stands"] if stands else []), of=of)
-        rows = [row for done, _ in calls for row in rows_of(done.out, "CSV")]
+        rows = [row for done, _ in calls for row in read_rows(done.out, "CSV")]
         for i, case in list(self.cases.items()):
             if of is None or i in of:
                 own = [row for row in rows if row["scene"] == case.name]

@@ -172,12 +172,12 @@ def test_rotation():
     ends = next((row["uncertainty"]["p5"], row["uncertainty"]["p95"]) for row in rows if row["against"])
     ends = ends if first["option"] == "kept" else (-ends[1], -ends[0])  # better minus worse
     order = figures["ranking"][0]
-    said = f"Over the years {order['better']} beats {order['than']} in {100 * order['probability']:.0f} % of plausible cases"
+    said = f"Over the years '{order['better']}' beats '{order['than']}' in {100 * order['probability']:.0f} % of plausible cases"
     expect_in(said, words)
     expect_in(f"Difference: {1000 * ends[0]:.0f} to {1000 * ends[1]:.0f} per 1000 (90 % range).", words)
     expect(re.search(r"HOW SURE [^.]*\. Over the years ", words), words)
-    expect(re.search(r"HOW SURE [^.]*\. Over the years (cut|kept) beats ", short), short)
-    expect(re.search(r"HOW SURE [^.]*\. Today cut beats kept", still) and "ver the rotation" not in still, still)
+    expect(re.search(r"HOW SURE [^.]*\. Over the years '(cut|kept)' beats ", short), short)
+    expect(re.search(r"HOW SURE [^.]*\. Today 'cut' beats 'kept'", still) and "ver the rotation" not in still, still)
 
 
 def test_one_figure():
@@ -305,19 +305,19 @@ def test_powers():
 
 def test_unknown():
     """Uncertain inputs are a sentence of the answer: the range, and whether the answer depends on them"""
-    def said(*arguments, few=UNCERTAINTY):
+    def report_text(*arguments, few=UNCERTAINTY):
         return " ".join(report(*arguments, few=few)[1].text["div"].split())
     between = (r"In nine of ten plausible cases, (\d+) to (\d+) of 1000 rocks arrive with more than (\d+) kJ today\. "
                r"The limit is exceeded in (\d+) to (\d+) of the next 20 years\. ")
     for limit in (50, 2000):
-        found = re.search(between + r"The answer is the same in all of these cases\.", said("-s", f"controls[0].accepted_kJ={limit}", "paper-site", few=("-n", 300, *UNCERTAINTY[2:])))
-        expect(found and int(found[3]) == limit and (int(found[4]) >= 1 if limit == 50 else int(found[5]) == 0), said("paper-site"))
+        found = re.search(between + r"The answer is the same in all of these cases\.", report_text("-s", f"controls[0].accepted_kJ={limit}", "paper-site", few=("-n", 300, *UNCERTAINTY[2:])))
+        expect(found and int(found[3]) == limit and (int(found[4]) >= 1 if limit == 50 else int(found[5]) == 0), report_text("paper-site"))
     wide = ("-n", 200, "-s", "uncertainty=[{path: rock.density_kg_m3, lo: 500, hi: 5000}]", "--sensitivity=20")
-    found = re.search(between + "Some of these cases keep within the limit and some do not: the answer depends on", said(
+    found = re.search(between + "Some of these cases keep within the limit and some do not: the answer depends on", report_text(
         "-s", "controls[0].accepted_kJ=120", "paper-site", few=wide))
-    expect(found and int(found[4]) == 0 < int(found[5]), said("-s", "controls[0].accepted_kJ=120", "paper-site", few=wide))
-    expect_in("With '", said("--option", "selection coppice", "--option", "large reserves", "four-systems"))
-    expect_in("Uncertainty was not computed. The answer assumes that the scene is exact.", said("paper-site", few=FEW))
+    expect(found and int(found[4]) == 0 < int(found[5]), report_text("-s", "controls[0].accepted_kJ=120", "paper-site", few=wide))
+    expect_in("With '", report_text("--option", "selection coppice", "--option", "large reserves", "four-systems"))
+    expect_in("Uncertainty was not computed. The answer assumes that the scene is exact.", report_text("paper-site", few=FEW))
 
 
 EVERYTHING = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}", "-s", "rules=toscana", "-s",
@@ -339,13 +339,13 @@ def test_office():
 
 
 def test_few_rocks():
-    """With fewer rocks than the default the uncertainty uses no more"""
+    """With fewer rocks than the default the uncertainty also uses fewer"""
     _, page = report("four-systems", few=("-n", 50, *UNCERTAINTY[2:]))
     expect_in("Sampling error: 50 rocks; ", page.text["p"])
 
 
 def test_left_out():
-    """A page of many options with blocks omits results of other commands, and says so"""
+    """A page of many options with blocks omits results of other commands, and reports it"""
     _, page = report(*EVERYTHING, "four-systems", few=("-n", 200, "--sensitivity=20"))
     expect_in("Left out of this long page: ", page.text["p"])
     expect("Options side by side" not in page.text["figcaption"], page.text["figcaption"])

@@ -97,7 +97,7 @@ def report(folder, scene, language, *more):
     return path
 
 
-def look(folder, path):
+def measure_page(folder, path):
     """Return the browser's findings on the page, on a screen as wide as the paper."""
     seen = folder / "look.html"
     seen.write_text(path.read_text(encoding="utf-8").replace("</body>", f"<script>{LOOK}</script></body>"), encoding="utf-8")
@@ -141,7 +141,7 @@ def check_report(scene, language, *more):
         path = report(f.path, scene, language, *more)
         text = path.read_text(encoding="utf-8")
         expect(len(text.encode()) <= 400_000, f"{len(text)} bytes")
-        found = look(f.path, path)
+        found = measure_page(f.path, path)
         expect(found["texts"] > 100, found)
         expect_equal(found["resources"], 0, "asked of a network")
         expect_equal(found["problems"], [], f"{scene}, {language}")

@@ -23,7 +23,7 @@ def profile(length):
     return f"distance,elevation\n0,{0.8 * length}\n{length},0\n"
 
 
-def rows_of(numbers):
+def make_rows(numbers):
     return "id,slope,rock.diameter_m\n" + "".join(f"r{i},{100 + i % 3 * 10}.csv,{0.5 + i % 7 / 10:g}\n" for i in numbers)
 
 
@@ -61,7 +61,7 @@ def expect_resumed(f, whole, status=DONE):
     return r
 
 
-def parts_of(f):
+def read_parts(f):
     """Return the lines of the side file, one per finished row."""
     return (f.path / "part.csv.resume").read_text().splitlines()[7:]
 
@@ -69,7 +69,7 @@ def parts_of(f):
 def test_kills():
     """Killed at any moment, it continues; the table equals that of one run to the byte, and no finished row is repeated"""
     with Folder() as f:
-        valley(f, rows_of(range(60)))
+        valley(f, make_rows(range(60)))
         whole = in_one_go(f)
         chance = random.Random(1)
         for _ in range(60 if FULL else 12):
@@ -78,7 +78,7 @@ def test_kills():
                 with subprocess.Popen([CEDUO, *command(*WORDS, "-o", "part.csv", "--resume")], cwd=f.path, env=environment()) as p:
                     time.sleep(chance.random() * 0.03)
                     p.kill()
-                done = len(parts_of(f)) if (f.path / "part.csv.resume").exists() else 0
+                done = len(read_parts(f)) if (f.path / "part.csv.resume").exists() else 0
                 expect(p.returncode in (0, -signal.SIGKILL), p.returncode)
             cut = chance.choice((0, 0, 1, 5, 60, 300))  # bytes that never reached the disk
             for name in ("part.csv", "part.csv.resume"):
@@ -86,14 +86,14 @@ def test_kills():
                     size = (f.path / name).stat().st_size
                     os.truncate(f.path / name, min(size, max(size - cut, 0 if name == "part.csv" else 117)))
             expect_resumed(f, whole)
-            expect(len(parts_of(f)) == 60 >= done, "each row is known once", parts_of(f))
+            expect(len(read_parts(f)) == 60 >= done, "each row is known once", read_parts(f))
         r = expect_resumed(f, whole)
         expect_equal(r.err, "")
 
 
 def test_nothing_twice():
     """Finished rows are not repeated: a second run of a slow table takes no time"""
-    for rows in (rows_of(range(3)), "id,rock.diameter_m\na,0.5\nb,0.6\nc,0.7\n"):
+    for rows in (make_rows(range(3)), "id,rock.diameter_m\na,0.5\nb,0.6\nc,0.7\n"):
         with Folder() as f:
             valley(f, rows)
             start = time.monotonic()
@@ -109,7 +109,7 @@ def test_nothing_twice():
 def test_two_programs():
     """With two programs on one file the second is refused while the first writes; one table results"""
     with Folder() as f:
-        valley(f, rows_of(range(40)))
+        valley(f, make_rows(range(40)))
         whole = in_one_go(f)
         for _ in range(5):
             (f.path / "part.csv").unlink(missing_ok=True)
@@ -120,7 +120,7 @@ def test_two_programs():
             for err, status in ends:
                 expect(status == DONE or (status == OUTPUT and "another ceduo is writing to it" in err), ends)
             expect_equal((f.path / "part.csv").read_bytes(), whole)
-            expect_equal(len(parts_of(f)), 40)
+            expect_equal(len(read_parts(f)), 40)
         with open(f.path / "part.csv", "rb") as held:
             fcntl.flock(held, fcntl.LOCK_EX)
             r = resume(f)
@@ -131,16 +131,16 @@ def test_two_programs():
 def test_changed_rows():
     """Rows with changed cells or files, new rows, and rows with broken lines are computed again, in the table's order"""
     with Folder() as f:
-        valley(f, rows_of(range(8)))
+        valley(f, make_rows(range(8)))
         expect_equal(resume(f).status, DONE)
         first = in_one_go(f)
-        for rows in (rows_of([0, 1, 2, 13, 4, 5, 6, 7]), rows_of([7, 6, 5, 4, 3, 2, 1, 0]), rows_of([9, 0, 1]), rows_of([3, 3, 3, 4]),
-                     rows_of([]) + "r0,none.csv,1\nr1,110.csv,0.6\n", rows_of(range(8)).replace(".csv,0.5", ".csv,0.75")):
+        for rows in (make_rows([0, 1, 2, 13, 4, 5, 6, 7]), make_rows([7, 6, 5, 4, 3, 2, 1, 0]), make_rows([9, 0, 1]), make_rows([3, 3, 3, 4]),
+                     make_rows([]) + "r0,none.csv,1\nr1,110.csv,0.6\n", make_rows(range(8)).replace(".csv,0.5", ".csv,0.75")):
             f.write("rows.csv", rows)
             whole = in_one_go(f)
             expect_resumed(f, whole, INPUT if "none" in rows else DONE)
-            expect_equal(len(parts_of(f)), rows.count("\n") - 1 - rows.count("none"))
-        f.write("rows.csv", rows_of(range(8)))
+            expect_equal(len(read_parts(f)), rows.count("\n") - 1 - rows.count("none"))
+        f.write("rows.csv", make_rows(range(8)))
         expect_resumed(f, first)
         text = first.decode()
         lines = text.splitlines(keepends=True)
@@ -158,7 +158,7 @@ def test_changed_rows():
         for broken in (side[:-1], side[:-30], side[:200], side[:-59] + side[-59:].replace(" 0", " x", 1), side + "0", side + side[-59:]):
             f.write("part.csv.resume", broken)
             expect_resumed(f, changed)
-            expect_equal({len(line) for line in parts_of(f)}, {58})
+            expect_equal({len(line) for line in read_parts(f)}, {58})
             side = (f.path / "part.csv.resume").read_text()
             expect_resumed(f, changed)
             expect_equal((f.path / "part.csv.resume").read_text(), side, "all is known")
@@ -167,7 +167,7 @@ def test_changed_rows():
 def test_other_runs():
     """Another version, scene, seed, number of rocks, option or column is refused by name, and the file stays"""
     with Folder() as f:
-        valley(f, rows_of(range(4)))
+        valley(f, make_rows(range(4)))
         whole = in_one_go(f)
         expect_resumed(f, whole)
         other = ["-f", "csv", "--columns", "x_m,id,option,wooded.reach_probability", "--each", "rows.csv"]
@@ -181,8 +181,8 @@ def test_other_runs():
             expect_equal((f.path / "part.csv").read_bytes(), whole, words)
         side = (f.path / "part.csv.resume").read_text()
         for name, text, what in (("s.yaml", (f.path / "s.yaml").read_text() + "\n", "scene"),
-                                 ("rows.csv", rows_of(range(4)).replace("id,", "name,"), None),
-                                 ("rows.csv", rows_of(range(4)).replace("rock.diameter_m", "release.vx_m_s"), "columns"),
+                                 ("rows.csv", make_rows(range(4)).replace("id,", "name,"), None),
+                                 ("rows.csv", make_rows(range(4)).replace("rock.diameter_m", "release.vx_m_s"), "columns"),
                                  ("part.csv.resume", side.replace("version ", "version 9"), "version"),
                                  ("part.csv", whole.decode().replace("x_m", "y_m"), "columns")):
             kept = (f.path / name).read_bytes()
@@ -203,7 +203,7 @@ def test_other_runs():
 def test_other_files():
     """A foreign table, a device, a pipe, an input file, an unwritable file and -o - are refused"""
     with Folder() as f:
-        valley(f, rows_of(range(2)))
+        valley(f, make_rows(range(2)))
         f.write("other.csv", "name,option\na,b\n")
         f.write("side.csv.resume", "mine\n")
         os.mkfifo(f.path / "pipe")
@@ -232,7 +232,7 @@ def test_other_files():
 def test_several_scenes():
     """Rows of two scenes each, rows with equal cells, and a row that first fails"""
     with Folder() as f:
-        valley(f, rows_of([0, 0, 1]) + "r5,late.csv,1\n" + rows_of([2])[len(rows_of([])):])
+        valley(f, make_rows([0, 0, 1]) + "r5,late.csv,1\n" + make_rows([2])[len(make_rows([])):])
         f.write("t.yaml", wooded_scene(title="other", controls=[{"x_m": "end-50"}]))
         words = ["-f", "csv", "--each", "rows.csv", "t.yaml"]
         expect_equal(resume(f, *words).status, INPUT)

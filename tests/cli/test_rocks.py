@@ -137,7 +137,7 @@ def test_tolerance_few():
         expect(not any("not met" in w or "25 m" in w for w in run["warnings"]), run["warnings"])
 
 
-def said(run, what):
+def find_warnings(run, what):
     return [w for w in run["warnings"] if what in w]
 
 
@@ -150,11 +150,11 @@ def test_stopped_at_the_release():
         run = result(near)
         stopped = run["options"][0]["ends"]["stopped_by_stems"]
         expect(stopped > 0.01, run["options"][0]["ends"])
-        sentence = said(run, "within 10 m of the release")
+        sentence = find_warnings(run, "within 10 m of the release")
         expect_equal(sentence, [f"current: stems stop {1000 * stopped:.0f} of 1000 rocks within 10 m of the release, where they are slow."], "all that are stopped")
         away = result(far)
         expect(away["options"][0]["ends"]["stopped_by_stems"] > 0, away["options"][0]["ends"])
-        expect_equal(said(away, "within 10 m of the release"), [], "the forest begins 11 m below")
+        expect_equal(find_warnings(away, "within 10 m of the release"), [], "the forest begins 11 m below")
 
 
 def test_uphill():
@@ -169,8 +169,8 @@ def test_uphill():
         run = result(short)
         left = round(200 * run["options"][0]["ends"]["left_slope"])
         expect(60 < left < 140, f"{left} of 200 leave")  # rocks thrown uphill
-        expect(said(run, f"Of 200 rocks {left} bounce over the upper end of the profile"), run["warnings"])
-        expect_equal(said(result(long_), "upper end"), [], "a profile that begins farther up")
+        expect(find_warnings(run, f"Of 200 rocks {left} bounce over the upper end of the profile"), run["warnings"])
+        expect_equal(find_warnings(result(long_), "upper end"), [], "a profile that begins farther up")
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ def site(what, rules, **changes):
                     "forest": [{"from_m": 0, "to_m": 60, "stand": what}], "rules": rules, **changes})
 
 
-def rules_of(what, rules, *arguments):
+def check_rules(what, rules, *arguments):
     with Folder() as f:
         return result(f.write("s.yaml", site(what, rules)), "-n", 5, *arguments)["options"][0]["stands"][0].get("rules")
 
@@ -49,7 +49,7 @@ SHIPPED = [  # region, species, system, standards, turn: minimum, met, minimum t
 def test_shipped():
     """Toscana, Umbria, Marche: the minimum for the species, its turn, and compliance"""
     for region, species, system, standards, turn, wanted in SHIPPED:
-        r = rules_of(coppice(species, standards, turn, system=system), region)
+        r = check_rules(coppice(species, standards, turn, system=system), region)
         expect_equal((r["standards_least"], r["standards_met"], r["turn_least"], r["turn_most"], r["turn_met"]), wanted,
                      (region, species))
         expect_equal((r["standards_per_ha"], r["turn_y"]), (standards, turn))
@@ -68,9 +68,9 @@ def test_shipped_say_where_from():
 
 def test_what_counts():
     """Standards are the trees left by a cut; without cutting the existing trees count, and there is no turn"""
-    kept = rules_of(coppice(), "umbria")
+    kept = check_rules(coppice(), "umbria")
     expect_equal((kept["standards_per_ha"], kept["standards_met"]), (60, False))
-    standing = rules_of(coppice(turn=None), "umbria")
+    standing = check_rules(coppice(turn=None), "umbria")
     expect_equal((standing["standards_per_ha"], standing["standards_met"]), (75, False))
     expect_equal((standing["turn_y"], standing["turn_least"], standing["turn_met"]), (None, 15, None))
 
@@ -78,7 +78,7 @@ def test_what_counts():
 def test_selection():
     """In a selection coppice the oldest shoots are cut after all cohorts, and Toscana requires 40 standards"""
     sel = coppice("fagus-sylvatica", 40, system="selection-coppice", cutting={"rotation_years": 8, "cohorts": 3, "stay_per_ha": [40]})
-    r = rules_of(sel, "toscana")
+    r = check_rules(sel, "toscana")
     expect_equal((r["standards_least"], r["standards_met"], r["turn_y"], r["turn_least"], r["turn_met"]), (40, True, 24, 24, True))
 
 
@@ -127,7 +127,7 @@ def test_not_named():
                 path = f.write("s.yaml", site(coppice(species, turn=turn), region))
                 page = " ".join(good(*WHOLE, "-n", 5, path).out.split())
                 expect_equal((NO_TURN.format(region.title(), common) in page, "give no" in page), (not named, not named), f"{region} {species}: {page[:900]}")
-                expect_equal(rules_of(coppice(species, turn=turn), region)["turn_least"] is None, not named)
+                expect_equal(check_rules(coppice(species, turn=turn), region)["turn_least"] is None, not named)
                 two = site(coppice(species, turn=turn), region)
                 two["options"] = [{"name": name, "forest": two["forest"]} for name in "ab"]
                 two.pop("forest")
@@ -143,7 +143,7 @@ def test_not_named():
 
 
 def test_marche():
-    """For Marche only the paper's 60 standards are checked, and every page says so"""
+    """For Marche only the paper's 60 standards are checked, and every page reports it"""
     with Folder() as f:
         path = f.write("s.yaml", site(coppice(), "marche"))
         page = " ".join(good(*WHOLE, "-n", 5, path).out.split())
@@ -184,7 +184,7 @@ def test_no_coppice():
     high = coppice(stools=None, shoots=None)
     bare = stand(stools=None, shoots=None, trees=None, system="bare")
     for what, rules in ((high, "umbria"), (bare, "umbria"), (coppice(), None)):
-        expect_equal(rules_of(what, rules), None)
+        expect_equal(check_rules(what, rules), None)
     with Folder() as f:
         runs = [result(f.write("s.yaml", site(coppice(), rules)), "-n", 50)["options"] for rules in (None, "umbria")]
         for run in runs:

@@ -56,19 +56,19 @@ def ci(folder, *sums):
 
 def test_ci():
     """CI runs all tests, then some in Italian and in German; only its last line is a summary, and it fails with any part"""
-    def says(passed, failed):
+    def print_counts(passed, failed):
         return f'echo "{passed} passed, {failed} failed"; exit {int(failed > 0)}'
 
     with Folder() as f:
-        lines, status = ci(f, says(20, 0), says(3, 0), says(4, 0))
+        lines, status = ci(f, print_counts(20, 0), print_counts(3, 0), print_counts(4, 0))
         expect_equal((lines[-1], status), ("27 passed, 0 failed", 0), lines)
         expect_equal([line for line in lines if " in " in line], ["deps check in C", "check-brief in it_IT.UTF-8",
                                                                   "check-brief in de_DE.UTF-8"])
         expect_equal(sum(" passed, " in line for line in lines), 1, lines)
-        for sums, wanted in (((says(20, 1), says(3, 0), says(4, 0)), "27 passed, 1 failed"),
-                             ((says(20, 0), says(3, 2), says(4, 0)), "27 passed, 2 failed"),
-                             ((says(20, 0), says(3, 0), "exit 2"), "23 passed, 1 failed"),
-                             ((says(20, 0), says(0, 0), says(4, 0)), "24 passed, 1 failed"),
+        for sums, wanted in (((print_counts(20, 1), print_counts(3, 0), print_counts(4, 0)), "27 passed, 1 failed"),
+                             ((print_counts(20, 0), print_counts(3, 2), print_counts(4, 0)), "27 passed, 2 failed"),
+                             ((print_counts(20, 0), print_counts(3, 0), "exit 2"), "23 passed, 1 failed"),
+                             ((print_counts(20, 0), print_counts(0, 0), print_counts(4, 0)), "24 passed, 1 failed"),
                              (("exit 1", "exit 1", "exit 1"), "0 passed, 3 failed")):
             lines, status = ci(f, *sums)
             expect_equal((lines[-1], status), (wanted, 1), lines)

@@ -42,7 +42,7 @@ def answer(what, *arguments, points=POINTS):
         return json.loads(r.out)
 
 
-def good_of(what, *arguments, rocks=100):
+def run_scene(what, *arguments, rocks=100):
     with Folder() as f:
         return good("-f", "json", "-n", rocks, *arguments, f.write("s.yaml", what)).out
 
@@ -57,7 +57,7 @@ def figure(result, name, option=0):
 
 
 def test_nothing():
-    """If nothing is uncertain the page says so, and nothing is computed"""
+    """If nothing is uncertain the page reports it, and nothing is computed"""
     for what in (measured(), measured(uncertainty="none"), measured(uncertainty=[])):
         result = answer(what)
         expect_equal((result["figures"], result["ranking"], result["evaluations"]), ([], [], 0))
@@ -340,7 +340,7 @@ def test_no_effect():
 
 
 CLOSED = [{"path": "rock.density_kg_m3", "lo": 2385, "hi": 2915}, {"path": "simulation.gravity_m_s2", "lo": 9.3195, "hi": 10.3005}]
-IDLE = {"path": "forest[0].stand.trees[0].per_ha", "lo": 400, "hi": 600}  # of a belt after the last control
+IDLE = {"path": "forest[0].stand.trees[0].per_ha", "lo": 400, "hi": 600}  # inputs of a belt after the last control
 
 
 def energies_in_uncertainty(points, seeds, idle):
@@ -572,7 +572,7 @@ def test_what_would_settle_it():
     expect_equal(inputs[law], "full-scale tests on such stems")
     expect_equal(inputs["rock.density_kg_m3"], "a piece of the rock, weighed")
     expect_equal(inputs["forest[*].stand.trees[0].per_ha"], "more sample plots")
-    rows = list(csv.DictReader(io.StringIO(good_of(what, "--sensitivity=256", "-f", "csv"))))
+    rows = list(csv.DictReader(io.StringIO(run_scene(what, "--sensitivity=256", "-f", "csv"))))
     expect_equal({r["path"]: r["measured_by"] for r in rows}, inputs)
     first = result["measure_first"]
     expect(first and law not in [i["path"] for i in first], first)
@@ -590,7 +590,7 @@ def test_what_would_settle_it():
 
 
 def test_bound_of_a_page():
-    """If a page would cost too much its uncertainty uses fewer points, or is omitted, and the page says so"""
+    """If a page would cost too much its uncertainty uses fewer points, or is omitted, and the page reports it"""
     def of(per_ha, rock):
         trees = [{"per_ha": per_ha, "dbh_m": 0.03, "height_m": 12, "volume_m3": 1e-6}]
         return measured(forest=[{"from_m": 0, "to_m": 85, "stand": wood(trees=trees)}], uncertainty=[DENSITY],
@@ -613,7 +613,7 @@ def test_too_few_points_for_a_range():
     """A 90 % range of fewer than 20 points is null in JSON, and the page prints the number of points"""
     with Folder() as f:
         path = f.write("s.yaml", measured(forest=[], release={"x_m": 5}, simulation={"rocks": 200, "law": "lumped"},
-                                          controls=[{"x_m": 90}], uncertainty=CLOSED))  # the surface needs no more
+                                          controls=[{"x_m": 90}], uncertainty=CLOSED))  # the surface needs only these
         for points in (19, 20):
             found = figure(good(f"--sensitivity={points}", "-f", "json", "-n", 60, path).json()[0], "energy_per_released_kJ")
             ends = [found["uncertainty"][k] for k in ("p5", "p50", "p95", "p5_se", "p95_se")]
@@ -739,18 +739,18 @@ REFUSED = {
 
 def test_outside():
     """A value outside its range is reported wherever its uncertainty is; no shipped scene has one"""
-    def told(*args):
+    def run_words(*args):
         return " ".join(ceduo("-n", "20", *args).out.split())
 
     changes = ("--set", "forest[0].stand.shoots[0].per_ha=20000")
     for args in (("-b",), ("--sensitivity=16",)):
-        page = told(*args, *changes, "paper-site")
-        expect("outside its range" not in told(*args, "--set", "forest[0].stand.shoots[0].per_ha=9575", "paper-site"), args)
+        page = run_words(*args, *changes, "paper-site")
+        expect("outside its range" not in run_words(*args, "--set", "forest[0].stand.shoots[0].per_ha=9575", "paper-site"), args)
     expect(re.search(r"per hectare, [^.]* is 20000, outside its range 7077.9575; the range is used\.", page), page)
-    page = told("-b", "--set", "simulation.law=arm", "--set", "uncertainty=[{path: simulation.law, one_of: [lumped, crsp]}]", "paper-site")
+    page = run_words("-b", "--set", "simulation.law=arm", "--set", "uncertainty=[{path: simulation.law, one_of: [lumped, crsp]}]", "paper-site")
     expect(re.search(r"law of impact is arm, outside its range lumped.crsp;", page), page)
     for scene in (PROFILES / "scenes").glob("*.yaml"):
-        expect("outside its range" not in told("--sensitivity=4", scene), scene)
+        expect("outside its range" not in run_words("--sensitivity=4", scene), scene)
 
 
 def test_refused():

@@ -6,7 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (INPUT, PROFILES, USAGE, Folder, Suite, ceduo, expect, expect_equal, expect_in, expect_near, good, result,
-                     scene, stand, tests_of)
+                     scene, stand, list_tests)
 from pages import WHOLE
 from runs import PAPER
 
@@ -239,7 +239,7 @@ def test_shipped_are_usual():
 
 def main():
     suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
+    suite.run(list_tests(sys.modules[__name__]))
     for value, words in BAD_SETS:
         suite.check(f"-s {ascii(value)}: status 2, {words}", bad_set, value, words)
     suite.end()

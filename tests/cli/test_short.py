@@ -10,7 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import PROFILES, Folder, expect, expect_equal, expect_in, good, result, run_all, wooded_scene
-from pages import WHOLE, arrivals_of, expect_width, of_1000
+from pages import WHOLE, parse_arrivals, expect_width, share_per_1000
 from runs import FOUR, PAPER, through
 
 PAGES = Path(__file__).resolve().parent / "pages"
@@ -19,11 +19,11 @@ ROCKS = 200
 LAWS = re.compile(r"(?i)\b(brauner|dorren|lumped|crsp|arm|gsteiger|crofton|interception|eq\.)\b")
 
 
-def page_of(scene, *arguments):
+def run_page(scene, *arguments):
     return good("--batch", "-n", ROCKS, *arguments, scene).out
 
 
-shipped = functools.cache(page_of)  # cached text of a file that never changes
+shipped = functools.cache(run_page)  # cached text of a file that never changes
 
 
 def above(page):
@@ -46,10 +46,10 @@ def test_lines():
         whole, few = shipped(scene), ("-n", 20, "-s", "uncertainty=none")
         ascii_of = few if signs >= {c for c in whole if not c.isascii()} else ("-n", ROCKS)
         signs |= set(whole)
-        same = page_of(scene, *few) if ascii_of == few else whole
+        same = run_page(scene, *few) if ascii_of == few else whole
         in_ascii = good("--batch", *ascii_of, scene, env={"LC_ALL": "C"}).out
         expect_equal(in_ascii.count("?"), same.count("?"), "question marks in the place of what ASCII lacks")
-        for page in (whole, page_of(scene, "--language", "it"), in_ascii):
+        for page in (whole, run_page(scene, "--language", "it"), in_ascii):
             lines = page.splitlines()
             expect(page == in_ascii or len(lines) <= (24 if options == 1 else shared + 2 * options), f"{len(lines)} lines", page)
             expect_width(page)
@@ -62,10 +62,10 @@ def test_figures():
     run, page = result("-n", ROCKS, PAPER), shipped(PAPER)
     control = run["options"][0]["controls"][0]
     wood, bare, index = (control[k] for k in ("wooded", "bare", "index"))
-    rows = arrivals_of(page)[0]
+    rows = parse_arrivals(page)[0]
     for side, arrivals in (("wooded", wood), ("bare", bare)):
         expect_equal((rows[side]["arrive"], rows[side]["arrive with more than 50 kJ"]),
-                     (of_1000("reach", arrivals), of_1000("exceed", arrivals)), side)
+                     (share_per_1000("reach", arrivals), share_per_1000("exceed", arrivals)), side)
         expect_equal(rows[side]["95 % stay below, kJ"], f"{arrivals['energy_kJ']['p95']:.3g}", side)
         expect(rows[side]["mean energy of those that arrive, kJ"].startswith(f"{arrivals['energy_kJ']['mean']:.3g} ("), side, page)
     expect(re.search(rf"taken by stems \(index\), kJ +{index['dissipated_kJ']:.3g}$", page, re.M), page)
@@ -110,18 +110,18 @@ def test_beside_the_threshold():
 
 
 def test_answers():
-    """Yes, no, it depends, no answer, no limit: each has its words, and says if uncertainty was not computed"""
+    """Yes, no, it depends, no answer, no limit: each has its words, and reports if uncertainty was not computed"""
     with Folder() as f:
         def first(**changes):
-            return next(line for line in page_of(f.write("s.yaml", {**wooded_scene(), **changes})).splitlines() if line.startswith("  "))
+            return next(line for line in run_page(f.write("s.yaml", {**wooded_scene(), **changes})).splitlines() if line.startswith("  "))
         road = {"x_m": 110, "name": "road"}
         expect(re.match(r"  ✔ YES, also without forest: 0 of 1000 > 1000 kJ", first(controls=[{**road, "accepted_kJ": 1e3}])), "yes")
         expect(re.match(r"  ✘ NO: \d+ of 1000 arrive with more than 0.01 kJ", first(controls=[{**road, "accepted_kJ": 0.01}])), "no")
         expect(re.match(r"  \d+ of 1000 arrive \(\d+ without forest\)", first(controls=[road])), "no limit")
         expect_in("by the index ", first(simulation={"contact_model": "index", "rocks": 200}, controls=[{"x_m": 110}]))
-    expect_in("Uncertainty was not computed: the scene has 'uncertainty: none'.", " ".join(page_of(PAPER, "-s", "uncertainty=none").split()))
-    expect(re.search(r"\? IT DEPENDS: in 0–\d+ of 20 years more than 50 of 1000 rocks exceed 140 kJ", page_of(PAPER, "-s", "controls[0].accepted_kJ=140")), "depends")
-    page = " ".join(page_of(FOUR, *through("index")).split())
+    expect_in("Uncertainty was not computed: the scene has 'uncertainty: none'.", " ".join(run_page(PAPER, "-s", "uncertainty=none").split()))
+    expect(re.search(r"\? IT DEPENDS: in 0–\d+ of 20 years more than 50 of 1000 rocks exceed 140 kJ", run_page(PAPER, "-s", "controls[0].accepted_kJ=140")), "depends")
+    page = " ".join(run_page(FOUR, *through("index")).split())
     expect("of plausible cases" not in page and "so arrivals do not separate the options." in page, page)
 
 
@@ -167,8 +167,8 @@ def test_bounded():
     expect_in("today (7 rocks)", page)
     expect_in("(7 each)", " ".join(page.split()))
     long = "a very long remark that goes on and on, " * 9
-    page = page_of(PAPER, "-s", f"controls[0].source.text={long}", "-s", "controls[0].source.kind=assumed")
-    expect(len(page.splitlines()) <= 24 and re.search(r"ASSUMED \* control 1; stems count from$", page, re.M) and "remark" not in page, page)
+    page = run_page(PAPER, "-s", f"controls[0].source.text={long}", "-s", "controls[0].source.kind=assumed")
+    expect(len(page.splitlines()) <= 24 and re.search(r"ASSUMED \* limit of control 1; stems count from$", page, re.M) and "remark" not in page, page)
 
 
 def test_details():
@@ -184,6 +184,6 @@ def test_details():
 if __name__ == "__main__":
     if "--write" in sys.argv:
         for each in SCENES:
-            (PAGES / f"{each.stem}.txt").write_text(page_of(each), encoding="utf-8")
+            (PAGES / f"{each.stem}.txt").write_text(run_page(each), encoding="utf-8")
     else:
         run_all(__name__)

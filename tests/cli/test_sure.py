@@ -214,15 +214,15 @@ def test_share_in_the_worst_year():
     with Folder() as f:
         scene_file = f.write("s.yaml", mapping)
 
-        def years_at(value):
+        def run_years(value):
             return good("-b", "--years", "-f", "json", "-n", rocks, "-s", f"{path}={value}", scene_file).json()[0]["options"][0]
 
-        few, many = (max(y["controls"][0]["wooded"]["exceed_probability"] for y in years_at(v)["years"]) for v in (10, 600))
+        few, many = (max(y["controls"][0]["wooded"]["exceed_probability"] for y in run_years(v)["years"]) for v in (10, 600))
         goal = (few + many) / 2
         found = good("--find", f"{path}=10:600", "--goal", f"worst-exceed={goal}", "-n", rocks, "-f", "json", scene_file).json()[0]
         mean = good("--find", f"{path}=10:600", "--goal", f"exceed={goal}", "--years", "-n", rocks, "-f", "json", scene_file).json()[0]
         page = good("--find", f"{path}=10:600", "--goal", f"worst-exceed={goal}", "-n", rocks, scene_file).out
-        at = years_at(found["value"])
+        at = run_years(found["value"])
     expect_equal((found["found"], found["over"], found["goal"]), (True, "rotation", "worst-exceed"), found)
     worst = max(y["controls"][0]["wooded"]["exceed_probability"] for y in at["years"])
     expect_near(worst, found["goal_at_value"], 1e-12, "as --years says")

@@ -43,7 +43,7 @@ def read(*arguments, **more):
     return r
 
 
-def stand_of(f, text):
+def read_stand(f, text):
     """Return the stand as the program reads it: --set accepts YAML, and JSON of the scene's stands has its figures."""
     f.write("stand.yaml", text)
     site = scene(slope={"vertices_m": [[0, 70], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.9}]}, controls=[{"x_m": 90}],
@@ -58,13 +58,13 @@ def without_comments(text):
     return [line for line in text.splitlines() if not line.startswith(("#", "name:"))]
 
 
-def by_hand(pick):
+def mean_and_error(pick):
     """Return mean and standard error over the plots, per hectare of the map"""
     each = [len(pick(stems)) / (area * math.cos(math.radians(slope))) * 10000 for area, slope, stems in STEMS.values()]
     return statistics.mean(each), statistics.stdev(each) / math.sqrt(len(each))
 
 
-def of_kind(*kinds):
+def select_kinds(*kinds):
     return lambda stems: [s for s in stems if s[1] in kinds]
 
 
@@ -86,19 +86,19 @@ def test_densities():
     """Stools, shoots and trees per hectare of the map, with one empty plot; standard errors are the uncertainty"""
     with Folder() as f:
         text = survey(f, table()).out
-        stand, path = stand_of(f, text)
-        expect_near(stand["stools_per_ha"], by_hand(stools)[0], 1e-3)
-        expect_near(stand["stems_per_ha"], by_hand(of_kind("shoot", "standard", "tree"))[0], 1e-2)
-        expect_near(stand["trees_per_ha"], by_hand(of_kind("standard", "tree"))[0], 1e-2)
+        stand, path = read_stand(f, text)
+        expect_near(stand["stools_per_ha"], mean_and_error(stools)[0], 1e-3)
+        expect_near(stand["stems_per_ha"], mean_and_error(select_kinds("shoot", "standard", "tree"))[0], 1e-2)
+        expect_near(stand["trees_per_ha"], mean_and_error(select_kinds("standard", "tree"))[0], 1e-2)
         r = ceduo("--sensitivity=2", "-n", 20, "-f", "json", path)
         inputs = {i["path"]: i for i in json.loads(r.out)["figures"][0]["inputs"]}
-        mean, se = by_hand(stools)
+        mean, se = mean_and_error(stools)
         expect(se > mean / 3, "a gamma law where the error is above a third of the mean", mean, se)
         found, normal = inputs["forest[0].stand.stools.per_ha"], (1 + math.erf(-3 / math.sqrt(2))) / 2
         for end, share in (("lo", normal), ("hi", 1 - normal)):  # three standard deviations of a normal law
             expect_near(gamma_share(found[end], mean, se), share, 1e-5, end)
         expect_in("forest[0].stand.trees[1].per_ha", list(inputs))
-        expect_in("stools.spacing_m, mean: 0.35, sd: 0.05", text)  # of 0.3 and 0.4
+        expect_in("stools.spacing_m, mean: 0.35, sd: 0.05", text)  # mean of 0.3 and 0.4
         expect_in("; spacing on 2 of them", text)
 
 
@@ -114,7 +114,7 @@ def test_rare():
             half = {9: 2.306004, 5: 2.776445}[plots] * se  # Student, 8 and 4 degrees of freedom
             expect_equal(mean < half, below)
             expect_in(f" {max(0, mean - half):.0f} to {mean + half:.0f}", line)
-            _, path = stand_of(f, text)
+            _, path = read_stand(f, text)
             if below:
                 continue
             expect(2 * se < mean < 3 * se, mean, se)
@@ -157,7 +157,7 @@ def test_offices():
         plots = ((200 * math.cos(math.radians(45)), 3, 5, 1), (150, 2, 3, 2))  # m2 of the map, stools, shoots, standards
         stools, shoots, standards = (statistics.mean(p[k] / p[0] * 10000 for p in plots) for k in (1, 2, 3))
         for name, text in texts.items():
-            stand, _ = stand_of(f, text)
+            stand, _ = read_stand(f, text)
             expect_near(stand["stools_per_ha"], stools, 1e-3, name)
             expect_near(stand["trees_per_ha"], standards, 1e-3, name)
             expect_near(stand["stems_per_ha"], shoots + standards, 1e-2, name)
@@ -182,8 +182,8 @@ def test_no_heights():
             line = next(x for x in usual.split(f"{kind}:\n")[1].splitlines())
             expect_near(float(re.search(r"height_m: ([0-9.]+)", line)[1]), height, 1e-4)
         expect_equal(usual.count("heights measured: 0 of "), 2)
-        stand_of(f, usual)
-        _, path = stand_of(f, text)
+        read_stand(f, usual)
+        _, path = read_stand(f, text)
         found = {i["path"]: i for i in json.loads(good("--sensitivity=2", "-n", 20, "-f", "json", path).out)["figures"][0]["inputs"]}
         volumes = found["forest[0].stand.trees[1].volume_m3"]
         expect_near(volumes["lo"], 0.7 * volume, 1e-5)
@@ -204,7 +204,7 @@ def test_template():
         english, italian = good("--survey", "--template").out, good("--survey", "--template", "--language", "it").out
         expect_in("saggio;area_m2;", italian)
         expect_in(";6,5;7,2;", italian)
-        stand_of(f, survey(f, english).out)
+        read_stand(f, survey(f, english).out)
         expect_equal(survey(f, italian).out.replace("; decimal commas", ""), survey(f, english).out)
         good("--survey", "--template", "-o", str(f.path / "sheet.csv"))
         expect_equal((f.path / "sheet.csv").read_text(), english)
@@ -226,7 +226,7 @@ def test_areas():
         by_area = survey(f, head.format("area_m2") + one.format(400, 400)).out
         radius = math.sqrt(400 / math.pi)
         expect_equal(survey(f, head.format("radius_m") + one.format(radius, radius)).out, by_area)
-        stand, _ = stand_of(f, by_area)
+        stand, _ = read_stand(f, by_area)
         expect_near(stand["trees_per_ha"], 1.5 * 10000 / 306.4178, 1e-3)
 
 
@@ -256,7 +256,7 @@ def test_beyond_the_heights():
         text = survey(f, "\n".join([head, *rows, "1,,,,tree,,9,", "1,,,,tree,,31,", "1,,,,tree,,35,"])).out
         expect_in("thicker than any of the measured: 2\n", text)
         expect_in(f"dbh_m: 0.31, height_m: {steep(31):.6g},", text)
-        stand_of(f, text)
+        read_stand(f, text)
         r = survey(f, "\n".join([head, *rows, "1,,,,tree,,9,", "1,,,,tree,,41,"]))
         expect_equal((r.status, r.out), (INPUT, ""), r.err)
         expect_in(f"a stem of 41 cm is {steep(41):.0f} m tall, more than 150 m; measure heights of thick stems, too", r.err)
@@ -272,13 +272,13 @@ def test_what_is_assumed():
         text = survey(f, thin).out
         expect_in("1 of 1 shoots of 0 to 5 cm lie outside the equation of their species", text)
         line = next(row for row in text.splitlines() if "dbh_m: 0.032" in row)
-        expect("volume_m3" not in line, line)  # the program uses the form factor, and says so
+        expect("volume_m3" not in line, line)  # the program uses the form factor, and reports it
         one = {"A": STEMS["A"]}
         text = survey(f, table(one)).out
         expect_in("One plot has no standard error", text)
         expect("uncertainty:" not in text, text)
         expect_in("one plot, no standard error", text)
-        stand_of(f, text)
+        read_stand(f, text)
         two = {"A": (200, 0, [("ostrya-carpinifolia", "shoot", n, 6.2, 6.4, 0.3 + n / 10) for n in (1, 2)])}
         paths = re.findall(r"path: ([^,}]*)", survey(f, table(two)).out.split("uncertainty:")[1])
         expect_equal(paths, ["stools.spacing_m"], "of two stools of one plot the spacing alone has an error")
@@ -289,7 +289,7 @@ def test_any_order():
     with Folder() as f:
         rows = [f"{plot},100,0,,shoot,{stool},{5 + stool / 10},6,\n" for stool in range(1, 13) for plot in "BA"]
         text = survey(f, HEAD + "\n" + "".join(rows)).out
-        stand, _ = stand_of(f, text)
+        stand, _ = read_stand(f, text)
         expect_near(stand["stools_per_ha"], 1200, 1e-9)
         for name in ("plots.txt", "p"):
             other = ceduo("--survey", f.write(name, HEAD + "\n" + "".join(sorted(rows)))).out
@@ -318,20 +318,20 @@ def test_stumps():
         text = survey(f, table() + "A,,,,stump,,30,0.2,\nB,,,,ceppo,,20,,\n").out
         expect_in("# stumps: {per_ha: ", text)
         expect_in("diameter_m: 0.25, height_m: 0.2, energy_kJ: ?}", text)
-        stand_of(f, text)
+        read_stand(f, text)
         rows = "A,,,,stump,,30,0.2,,2\nB,,,,ceppo,,20,,,\nC,,,,stump,,20,0.4,,4\n"
         text = survey(f, table().replace("\n", ",\n").replace(f"{HEAD},", f"{HEAD},energy_kJ") + rows).out
         each = [10000 / (area * math.cos(math.radians(slope))) for area, slope, _ in STEMS.values()]
         expect_in(f"stumps: {{per_ha: {statistics.mean(each):.6g}, diameter_m: 0.233333, height_m: 0.3, energy_kJ: 3,", text)
         expect_in("kind: assumed, text: \"counted; the energy that one absorbs", text)
         expect_in(f"path: stumps.per_ha, mean: {statistics.mean(each):.6g}, sd: {statistics.stdev(each) / math.sqrt(3):.6g}", text)
-        _, path = stand_of(f, text)
+        _, path = read_stand(f, text)
         r = ceduo("--sensitivity=2", "-n", 20, "-f", "json", path)
         expect_in("forest[0].stand.stumps.per_ha", [i["path"] for i in json.loads(r.out)["figures"][0]["inputs"]])
         expect_in("height_m: ?, energy_kJ: ?}", survey(f, table() + "A,,,,stump,,30,,\n").out)
         alone = survey(f, HEAD + ",energy_kJ\nA,200,,,stump,,30,0.2,,2\nB,200,,,,,,,,\n").out
         expect("system: bare" not in alone, alone)
-        stand_of(f, alone)
+        read_stand(f, alone)
         rows = "A,200,,ostrya-carpinifolia,tree,,20,12,\nA,,,quercus-cerris,tree,,10,9,\nA,,,quercus-cerris,stump,,40,0.2,\n"
         expect_in("# basal area: hop hornbeam 80 %, Turkey oak 20 %\n", survey(f, f"{HEAD}\n{rows}").out, "of stems that stand: 400 to 100 cm2")
 
@@ -341,7 +341,7 @@ def test_bare():
     with Folder() as f:
         text = survey(f, HEAD + "\nA,200,,,,,,,\nB,200,,,,,,,\n").out
         expect_in("system: bare", text)
-        stand_of(f, text)
+        read_stand(f, text)
 
 
 def test_columns():
@@ -465,7 +465,7 @@ def test_thin():
         text = survey(f, HEAD + "\nA,200,0,,tree,,0.2,1.5,\nA,,,,tree,,4.9,5,\n").out
         expect(statistics.stdev((0.2, 4.9)) > 2.55)
         expect_in("dbh_m: 0.0255, dbh_sd_m: 0.0255,", text)
-        stand_of(f, text)
+        read_stand(f, text)
 
 
 def test_many_wrong():
@@ -514,7 +514,7 @@ def test_terminal():
             expect_in("stools.per_ha", (f.path / "s.yaml").read_text())
 
 
-def future_of(stems, *arguments):
+def print_future(stems, *arguments):
     """Return the part between the stems and the source of the stand."""
     with Folder() as f:
         out = read(f.write("plots.csv", table({"A": (100, 0, stems), "B": (100, 0, stems)})), *arguments).out
@@ -532,7 +532,7 @@ def test_future():
     cases += [("ostrya-carpinifolia", 1, 20, "coppice-with-standards"),  # 100 a hectare, 3.1 m2
               ("fagus-sylvatica", 3, 19.8, "beech-coppice-with-standards"), ("fagus-sylvatica", 3, 19.9, "beech-large-reserves")]
     for species, standards, dbh, name in cases:
-        text = future_of(stems(species, standards, dbh))
+        text = print_future(stems(species, standards, dbh))
         expect_in(f"as in the shipped stand '{name}'", text)
         expect_equal(text.count("kind: assumed"), 2, text)
         shipped = {}
@@ -549,9 +549,9 @@ def test_future():
     with Folder() as f:  # nine in ten plots are empty: fewer than 90 per hectare
         one = {f"P{i}": (100, 0, stems("ostrya-carpinifolia", 8) if i == 0 else []) for i in range(10)}
         expect_in("'simple-coppice'", survey(f, table(one)).out)
-    expect_in("# ceduo has no stand of this species", future_of(stems("robinia-pseudoacacia", 1)))
-    expect_in("# ceduo has no stand of this species", future_of(stems("", 1)))
-    expect_equal(future_of([("fagus-sylvatica", "tree", "", 30, 20, "")]), "", "no shoots")
+    expect_in("# ceduo has no stand of this species", print_future(stems("robinia-pseudoacacia", 1)))
+    expect_in("# ceduo has no stand of this species", print_future(stems("", 1)))
+    expect_equal(print_future([("fagus-sylvatica", "tree", "", 30, 20, "")]), "", "no shoots")
 
 
 def test_years_of_a_survey():

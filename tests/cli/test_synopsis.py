@@ -45,13 +45,13 @@ def forms():
         yield alternatives, others
 
 
-def given(name):
+def write_option(name):
     return f"--{name}={VALUES[name]}" if name in VALUES else f"--{name}"
 
 
-def goes(modes, option):
+def is_accepted(modes, option):
     """True if the program accepts an option with a mode: it then misses the scene."""
-    words = {f"--{m}" if m in ("batch", "check") else given(m) for m in modes} | {given(option), *NEEDS.get(option, [])}
+    words = {f"--{m}" if m in ("batch", "check") else write_option(m) for m in modes} | {write_option(option), *NEEDS.get(option, [])}
     done = ceduo(*sorted(words), *([] if "survey" in modes else ["none.yaml"]))
     expect(done.status in (USAGE, INPUT), words, done)
     return done.status == INPUT
@@ -72,7 +72,7 @@ def test_forms():
             if not modes or modes[0].startswith("list-") or modes[0] == "help":
                 continue
             seen += 1
-            wanted = {o for o in options() if o not in MODES and o != "script" and goes(modes, o)}
+            wanted = {o for o in options() if o not in MODES and o != "script" and is_accepted(modes, o)}
             expect_equal(sorted(others - {"sensitivity"}), sorted(wanted), f"options of {modes}")
         expect_equal(seen, 8, "forms")
 

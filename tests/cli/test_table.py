@@ -10,8 +10,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (FULL, PROFILES, Folder, belt, expect, expect_equal, expect_in, expect_near, good, result, run_all, scene, stand,
                      wooded_scene)
-from pages import (WHOLE, arrivals_of, blocks_of, columns, digits, expect_cells, expect_option, expect_order, expect_width,
-                   half_of_mean, of_1000, section, table_row)
+from pages import (WHOLE, parse_arrivals, parse_sizes, columns, digits, expect_cells, expect_option, expect_order, expect_width,
+                   half_of_mean, share_per_1000, section, table_row)
 from runs import FOUR, MODELS, PAPER, THICK, THIN, expect_run, read_csv, through, treated
 
 
@@ -27,7 +27,7 @@ def test_table_order():
                  "39.9 kJ per 100 m", "59.4 kJ are left \\(Eq. 5\\)", "62.3 kJ", "(?i)one rock", "Blocks of other sizes",
                  "Eq. 6 gives 2.61 m", "Assumed")
     expect_option(text, option)
-    expect_in(f"Energy: FAILS. {of_1000('exceed', control['wooded'])} of 1000 arrive with more than 50 kJ",
+    expect_in(f"Energy: FAILS. {share_per_1000('exceed', control['wooded'])} of 1000 arrive with more than 50 kJ",
               re.sub(r"\s+", " ", text), "the energy light's reason")
     expect_in("limit 50 kJ*", text, "mark of the assumed accepted energy")
     expect_width(text)
@@ -72,7 +72,7 @@ def test_table_widest():
     expect(max(map(columns, text.splitlines())) <= 80, *(line for line in text.splitlines() if columns(line) > 80))
     flat = "".join(text.split())
     expect(word in flat and wide in flat, "cut short:", text)
-    for table in arrivals_of(text):
+    for table in parse_arrivals(text):
         expect(all(re.match(r"\d{7}±\d+$", rows["mean energy of those that arrive, kJ"]) for rows in table.values()), "mean energies", table)
     head, *table = text.split("Side by side")[1].splitlines()[2:]
     names = [name for name in (wide[:9], "large reserves") if not any(name in row for row in table)]
@@ -89,7 +89,7 @@ def test_table_small():
         for diameter in (1, 0.1, 0.03, 0.01, 0.003, 0.001, 1e-4):
             orders = ["-n", 60, "-s", f"rock.diameter_m={diameter}", path]
             controls = [c["bare"] for c in result(*orders)["options"][0]["controls"]]
-            found = [table["bare"] for table in arrivals_of(good(*WHOLE, *orders).out)]
+            found = [table["bare"] for table in parse_arrivals(good(*WHOLE, *orders).out)]
             expect_equal(len(found), len(controls), "tables")
             for rows, a in zip(found, controls):
                 cells = [rows[name].split()[0] for name in ("95 % stay below, kJ", "mean speed of those that arrive, m/s")]
@@ -105,7 +105,7 @@ def test_table_one_rock():
     for rock in ("{diameter_m: 0.5}", "{diameter_m: 20}", "{diameter_m: 500}", "{diameter_m: 0.001}"):
         text = good(*WHOLE, "-n", 1, "-s", f"rock={rock}", FOUR).out
         expect(not re.search(r"\bnan\b", text), re.findall(".*nan.*", text))
-        means = [rows.get("mean energy of those that arrive, kJ", "-") for table in arrivals_of(text) for rows in table.values()]
+        means = [rows.get("mean energy of those that arrive, kJ", "-") for table in parse_arrivals(text) for rows in table.values()]
         expect(means and not any("(" in cell for cell in means), means)
 
 
@@ -144,10 +144,10 @@ def test_table_lights():
                     for name in ("Contact", "Free run", "Energy")}
     lights = said()
     expect(re.fullmatch(r"passes\. Every belt has an ADC below 30 m \([\d.]+ m at most\) and no gap is longer\."
-                        r" Stems below 3 cm do not count\. Counting only stems from 8 cm on it fails: 100 m\.",
+                        r" Stems below 3 cm do not count\. It fails if only stems from 8 cm on count: 100 m\.",
                         lights["Contact"]), lights)
     expect(re.fullmatch(r"passes\. Chance of 30 m without a contact at worst [\d.]+ % \(10 % is allowed\)\."
-                        r" Counting only stems from 8 cm on it fails: 74\.1 %\.",
+                        r" It fails if only stems from 8 cm on count: 74\.1 %\.",
                         lights["Free run"]), lights)
     expect(re.fullmatch(r"FAILS\. \d+ \(\d+–\d+\) of 1000 arrive with more than 60 kJ \(50 are allowed\)\.",
                         lights["Energy"]), lights)
@@ -200,7 +200,7 @@ def test_threshold_along_the_ground():
                                        forest=[belt(0, 40), belt(45, 55), belt(60, 70)], controls=[{"x_m": 80}]))
         for threshold in (30, 20):
             text = re.sub(r"\s+", " ", good(*WHOLE, "-s", f"simulation.threshold_m={threshold}", path).out)
-            found = re.findall(r"; (\d+) m of the map are (\d+) m along the ground", text)
+            found = re.findall(r"; (\d+) m on the map are (\d+) m along the ground", text)
             wanted = [round(threshold * x) for x in (math.sqrt(2), (1 + math.sqrt(2)) / 2, 1)]
             expect_equal(found, [(str(threshold), str(x)) for x in wanted], text)
     expect_equal(round(30 * math.sqrt(2)), 42)
@@ -211,7 +211,7 @@ def test_table_blocks():
     for arguments, own in (((), 0.197), ((("-s", "rock.diameter_m=1.2", "-s", "rock.height_m=0.6")), 0.679), (("-s", "rock.diameter_m=0.2", "-s", "rock.height_m=0.2"), 0.00628),
                            (("-s", "rock.diameter_m=3", "-s", "rock.height_m=3"), 21.2)):
         text, run = good(*WHOLE, PAPER, *arguments).out, result(PAPER, *arguments)
-        rows = blocks_of(text)
+        rows = parse_sizes(text)
         expect_equal(sorted(r[1] for r in rows), [r[1] for r in rows], "volumes rise")
         expect_equal([r[1] for r in rows if not r[0]], [v for v in (0.05, 0.2, 1, 5) if not own / 2 < v < own * 2], "volumes")
         mine = next(r for r in rows if r[0])
@@ -220,7 +220,7 @@ def test_table_blocks():
         expect_equal(mine[2:4], (float(digits(rock["mass_kg"], 3)), float(digits(rock["mean_diameter_m"], 3))), "mass, diameter")
         expect_equal(mine[4], float(digits(max(s["adc"]["adc_m"] for s in option["stands"]), 3)), "ADC")
         expect_equal(mine[5], float(digits(option["summary"]["contacts"], 3)), "contacts")
-        expect_equal(mine[6], of_1000("exceed", option["controls"][0]["wooded"]), "share")
+        expect_equal(mine[6], share_per_1000("exceed", option["controls"][0]["wooded"]), "share")
         for a, b in zip(rows, rows[1:]):
             expect(a[4] >= b[4] and a[5] <= b[5], "a larger block meets more", a, b)
         shares = [[int(n) for n in re.findall(r"\d+", r[6])] for r in rows]  # each with its interval: their numbers differ
@@ -255,18 +255,18 @@ def test_table_blocks_cases():
         path = f.write("s.yaml", treated(thick=THICK, none=None))
         run, text = result(path), good(*WHOLE, path).out
         for option in run["options"]:
-            rows = blocks_of(section(text, option["name"]))
+            rows = parse_sizes(section(text, option["name"]))
             expect_equal(sum(r[0] for r in rows), 1, option["name"])
             mine = next(r for r in rows if r[0])
-            expect_equal(mine[6], of_1000("exceed", option["controls"][1]["wooded"]), option["name"])
-        expect(all(r[4] == math.inf and r[5] == 0 for r in blocks_of(section(text, "none"))), text)
+            expect_equal(mine[6], share_per_1000("exceed", option["controls"][1]["wooded"]), option["name"])
+        expect(all(r[4] == math.inf and r[5] == 0 for r in parse_sizes(section(text, "none"))), text)
         text = good(*WHOLE, path, *through("index")).out
-        expect(all(r[6] == "-" for r in blocks_of(section(text, "thick"))), "a share by the index", text)
+        expect(all(r[6] == "-" for r in parse_sizes(section(text, "thick"))), "a share by the index", text)
         path = f.write("s.yaml", wooded_scene(controls=[{"x_m": 105}]))
         text = good(*WHOLE, path).out
         expect_in("arrive", text[text.index("Blocks of"):], "head")
-        mine = next(r for r in blocks_of(text) if r[0])
-        expect_equal(mine[6], of_1000("reach", result(path)["options"][0]["controls"][0]["wooded"]), "that arrive")
+        mine = next(r for r in parse_sizes(text) if r[0])
+        expect_equal(mine[6], share_per_1000("reach", result(path)["options"][0]["controls"][0]["wooded"]), "that arrive")
 
 
 def test_table_arrivals():
@@ -281,7 +281,7 @@ def test_table_arrivals():
             run, text = result(path), good(*WHOLE, path).out
             expect_option(text, run["options"][0])
             expect_width(text)
-            expect(len(blocks_of(text)) in (4, 5), "blocks of other sizes", text)
+            expect(len(parse_sizes(text)) in (4, 5), "blocks of other sizes", text)
 
 
 def test_table_left():
@@ -325,7 +325,7 @@ def test_table_assumed():
 
 
 def test_table_changed():
-    """A value changed by -s loses its outer source, and the list says so; no figure changes by that"""
+    """A value changed by -s loses its outer source in the list; this changes no figure"""
     note = {"kind": "assumed", "text": "all a guess"}
     with Folder() as f:
         path = f.write("s.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 50, "source": note}, {"x_m": 80, "source": note}]))

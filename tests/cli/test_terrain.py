@@ -52,14 +52,14 @@ def speeds(run):
     return [c["bare"]["speed_m_s"]["mean"] for c in run["options"][0]["controls"]]
 
 
-def run_of(folder, made, *arguments):
+def run_scene(folder, made, *arguments):
     return result(folder.write("s.yaml", made), *arguments)
 
 
 def test_rocks_move_as_rocks_do():
     """On talus of 40 degrees rocks move at 10 to 25 m/s and reach a road under a reach angle of 37 degrees."""
     with Folder() as f:
-        run = run_of(f, site())
+        run = run_scene(f, site())
         expect(all(10 < v < 25 for v in speeds(run)[:2]), "speeds on the talus", speeds(run))
         expect(shares(run)[2] > 0.8, "share at the road", shares(run))
 
@@ -68,10 +68,10 @@ def test_sampling():
     """A point every 2.5, 1 or .5 m with noise changes no share by more than .10. Noise of 15 cm every .5 m has relief beyond
     the tolerance of .5 m (3.3 standard deviations among 540 points): its share lies within the uncertainty."""
     with Folder() as f:
-        given = shares(run_of(f, site()))
+        given = shares(run_scene(f, site()))
         for step in (2.5, 1, 0.5):
             for noise in (0.05, 0.1, 0.15):
-                found = [shares(run_of(f, site(sampled(step, noise, seed)))) for seed in range(10)]
+                found = [shares(run_scene(f, site(sampled(step, noise, seed)))) for seed in range(10)]
                 mean = [sum(column) / 10 for column in zip(*found)]
                 if (step, noise) == (0.5, 0.15):
                     continue
@@ -82,7 +82,7 @@ def test_sampling():
         band = next(x for x in answer["figures"] if x["figure"] == "reach_probability")
         expect(band["uncertainty"]["p5"] <= given[2] <= band["uncertainty"]["p95"], "within what is uncertain", band)
         # the same relief used unsimplified stops rocks
-        whole = shares(run_of(f, site(ground=slope(sampled(1, 0.1, 0), tolerance_m=0))))
+        whole = shares(run_scene(f, site(ground=slope(sampled(1, 0.1, 0), tolerance_m=0))))
         expect(whole[2] < given[2] - 0.2, "without simplifying", whole)
 
 
@@ -103,12 +103,12 @@ def test_points_are_counted():
         expect_in(words, (f.path / "r.html").read_text())
         expect_in("271 punti", good(*WHOLE, "--language", "it", path).out)
         fixed = slope(points, tolerance_m=0)
-        run = run_of(f, site(ground=fixed))["slope"]
+        run = run_scene(f, site(ground=fixed))["slope"]
         expect_equal((run["points"], run["tolerance_m"]), (271, 0))
         expect(run["used"] >= 271, "all points", run)
         segments = {"vertices_m": slope(points)["vertices_m"], "segments": [{"rn": 0.31, "rt": 0.83, "roughness_m": 0.2}]}
-        expect_equal(run_of(f, site(ground=segments))["slope"], {"points": 271, "used": 271, "tolerance_m": 0})
-        run = run_of(f, site(ground=segments), "-s", "slope.tolerance_m=0.5")["slope"]
+        expect_equal(run_scene(f, site(ground=segments))["slope"], {"points": 271, "used": 271, "tolerance_m": 0})
+        run = run_scene(f, site(ground=segments), "-s", "slope.tolerance_m=0.5")["slope"]
         expect(run["used"] < 40, "one ground for all may be simplified", run)
         each = {**segments, "segments": [{"rn": 0.31, "rt": 0.83, "roughness_m": 0.1 + i / 10000} for i in range(270)],
                 "tolerance_m": 0.5}
@@ -146,7 +146,7 @@ def test_angles():
         expect_near(float(row["topography.reach_angle_deg"]), reach, 1e-9, "in a table")
         expect_in("At 215 m, reach angle 37°, shadow angle 34°", good(*WHOLE, path).out)
         flat = site(ground={"vertices_m": [[0, 100], [100, 40], [270, 0]], "materials": [{**MATERIALS[1], "from_m": 0}]})
-        expect_equal(run_of(f, flat)["options"][0]["controls"][0]["topography"]["shadow_angle_deg"], None)
+        expect_equal(run_scene(f, flat)["options"][0]["controls"][0]["topography"]["shadow_angle_deg"], None)
 
 
 SMOOTH = [{"rn": 0.315, "rt": 0.835, "roughness_rad": 0.02, "friction": 1.2}]  # friction far above the slope
@@ -158,7 +158,7 @@ def test_contradicted():
         points = [(0, 200), (20, 165), (150, 60)]
         road = [{"x_m": 140, "name": "road", "accepted_kJ": 50}]
         made = site(ground={"vertices_m": points, "segments": SMOOTH}, controls=road)
-        run = run_of(f, made)
+        run = run_scene(f, made)
         control = run["options"][0]["controls"][0]
         expect(control["bare"]["reach_probability"] < 0.01, "what arrives", control["bare"])
         expect_equal(control["verdict"]["answer"], "nothing")
@@ -171,13 +171,13 @@ def test_contradicted():
         # a bench of 35 m may hold them: an answer, and a warning
         bench = {"vertices_m": [(0, 200), (20, 165), (100, 100), (135, 99), (185, 56)],
                  "segments": [{"rn": 0.3, "rt": 0.83, "roughness_m": 0.2, "friction": 0.45}]}
-        run = run_of(f, site(ground=bench, controls=road))
+        run = run_scene(f, site(ground=bench, controls=road))
         control = run["options"][0]["controls"][0]
         expect(0 < control["bare"]["reach_probability"] < 0.01, "few arrive", control)
         expect_equal(control["verdict"]["answer"], "yes")
         expect_in("under a reach angle of 37°. A bench of 35 m may hold them", " ".join(run["warnings"]))
         # a bench that holds all of them is named, too
-        run = run_of(f, site(ground=bench, controls=road), "-s", "slope.segments[0].friction=0.6")
+        run = run_scene(f, site(ground=bench, controls=road), "-s", "slope.segments[0].friction=0.6")
         expect_equal(run["options"][0]["controls"][0]["bare"]["rocks_reached"], 0)
         expect_in("A bench of 35 m may hold them", " ".join(run["warnings"]))
 
@@ -188,7 +188,7 @@ def test_far():
         points = [(0, 200), (20, 150), (60, 120), (260, 90)]
         made = site(ground={"vertices_m": points, "segments": [{"rn": 0.3, "rt": 0.8, "roughness_m": 0.01, "friction": 0.1}]},
                     controls=[{"x_m": 200, "name": "house"}])
-        run = run_of(f, made)
+        run = run_scene(f, made)
         expect(run["options"][0]["controls"][0]["topography"]["shadow_angle_deg"] < 24, "angle", run)
         expect_in("house (200 m): 1000 of 1000 rocks arrive without forest, though it lies under a shadow angle of only",
                   " ".join(run["warnings"]))
@@ -199,17 +199,17 @@ def test_speeds_that_do_not_exist():
     with Folder() as f:
         long = {"vertices_m": [[0, 2344], [3000, 0]], "segments": [{"rn": 0.315, "rt": 0.835, "roughness_rad": 0.15, "friction": 0.5}]}
         made = site(ground=long, controls=[{"x_m": 2900, "name": "house"}])
-        run = run_of(f, made, "-n", 200, "-s", "simulation.law=lumped")
+        run = run_scene(f, made, "-n", 200, "-s", "simulation.law=lumped")
         words = " ".join(run["warnings"])
         expect(speeds(run)[0] > 35, "speed", speeds(run))
         expect_in("The law lumped has no limit of speed on long slopes: use crsp", words)
         expect_in("1 rock in 20 passes more than", words)
-        crsp = run_of(f, made, "-n", 200)
+        crsp = run_scene(f, made, "-n", 200)
         expect("no limit of speed" not in " ".join(crsp["warnings"]), "crsp", crsp["warnings"])
 
 
 def test_defaults():
-    """A scene defaults to crsp and the friction bound; --list-parameters says so, and false gives the published laws."""
+    """A scene defaults to crsp and the friction bound; --list-parameters lists it, and false gives the published laws."""
     with Folder() as f:
         path = f.write("s.yaml", site())
         run, published = result(path), result(path, "-s", "simulation.friction_bound=false")

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (FULL, INPUT, USAGE, Folder, Suite, belt, ceduo, expect, expect_equal, expect_in, expect_near, good, result, stand, tests_of,
+from harness import (FULL, INPUT, USAGE, Folder, Suite, belt, ceduo, expect, expect_equal, expect_in, expect_near, good, result, stand, list_tests,
                      wooded_scene)
 from pages import WHOLE, expect_width
 from runs import expect_run
@@ -120,7 +120,7 @@ def test_dbh_spread():
             expect_contacts(run["options"][0]["controls"][1]["wooded"], 85, rate, 2000, name, 3)
 
 
-def taken_per_contact(folder, wood):
+def loss_per_contact(folder, wood):
     """Return kJ that a very heavy rock loses per stem, just after a short belt; its error; and W of Eq. 3."""
     path = folder.write("s.yaml", wooded_scene(
         forest=None, options=[{"name": "none"}, {"name": "wood", "forest": [{"from_m": 55, "to_m": 59, "stand": wood}]}],
@@ -142,7 +142,7 @@ def test_energy_taken():
             trees = stand(stools=None, shoots=None, trees=[tree], energy=energy)
             shoots = stand(stools={"per_ha": 1500, "spacing_m": 0.4}, shoots=[shoot], trees=[], energy=energy)
             for wood, wanted in ((trees, per_tree), (shoots, per_shoot)):
-                found, error, said = taken_per_contact(f, wood)
+                found, error, said = loss_per_contact(f, wood)
                 expect_near(said, wanted, 0.002 * wanted, f"{energy}: energy_per_contact_J")
                 # ground contacts between take their share of the remaining energy
                 expect_near(found, wanted, 4.5 * error + 0.06 * wanted, f"{energy}: taken by a hit")
@@ -160,9 +160,9 @@ def test_energy_spread():
         trees = stand(stools=None, shoots=None, trees=[tree])
         shoots = stand(stools={"per_ha": 500, "spacing_m": 0.4}, shoots=[tree], trees=[])
         for name, wood in (("trees", trees), ("shoots", shoots)):
-            found, error, _ = taken_per_contact(f, wood)
+            found, error, _ = loss_per_contact(f, wood)
             expect_near(found, wanted, 4.5 * error + 0.06 * wanted, name)
-        spread = [taken_per_contact(f, {**trees, "trees": [{**tree, "dbh_sd_m": s}]})[0] for s in (0, sd)]
+        spread = [loss_per_contact(f, {**trees, "trees": [{**tree, "dbh_sd_m": s}]})[0] for s in (0, sd)]
         expect(spread[0] != spread[1], "a spread of diameters changes nothing")
 
 
@@ -376,7 +376,7 @@ def test_height_of_stems():
 
 def main():
     suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
+    suite.run(list_tests(sys.modules[__name__]))
     for case in EXTREMES:
         suite.check(f"a wood of {case[0]}: as many stems are met as stand in the way", extreme, *case)
     suite.end()

@@ -26,7 +26,7 @@ RUN = re.compile(r'^\.\\" run (\S+)\n(?:(?!\.Bd|\.\\")[^\n]*\n)*\.Bd -literal[^\
 KEYS_MOST = 25
 
 
-def plain(text):
+def render_literal(text):
     """Return a literal display as its reader sees it."""
     for escape, sign in ((r"\(aq", "'"), (r"\-", "-"), (r"\&", ""), (r"\(ha", "^"), (r"\(ti", "~"), (r"\e", "\\")):
         text = text.replace(escape, sign)
@@ -36,7 +36,7 @@ def plain(text):
 
 
 def blocks(way, page=PAGE):
-    return [plain(body) for name, body in RUN.findall(page.read_text(encoding="utf-8")) if name == way]
+    return [render_literal(body) for name, body in RUN.findall(page.read_text(encoding="utf-8")) if name == way]
 
 
 # A replacement for Slurm: runs the tasks of an array in sequence. In tests/slurm.sh Slurm is real.
@@ -127,7 +127,7 @@ LIGHTS = {"✔": "pass", "✘": "FAIL"}
 
 
 def side_by_side(page):
-    """Name of an option: its figures in the last table, and what its own part of the page says stems could take."""
+    """Return for each option its figures in the last table and the energy that stems could absorb, from its part of the page."""
     names = [name for name in re.findall(r"\n\n(\S.*)\n  stand ", page)]
     found = [m for m in map(ROW.search, page[page.index("Side by side"):].splitlines()) if m]
     taken = [float(kJ) for kJ in re.findall(r"stems\s+could\s+absorb ([\d.]+)\s+kJ", page)]
@@ -135,7 +135,7 @@ def side_by_side(page):
     return {name: {**{key: LIGHTS.get(value, value) for key, value in m.groupdict().items()}, "taken": kJ, "share": int(m["share"])} for name, m, kJ in rows}
 
 
-def told(pattern):
+def numbers_in_page(pattern):
     """Return the numbers of ceduo-workflows(7) in a sentence."""
     found = re.search(pattern, " ".join(PAGE.read_text(encoding="utf-8").split()))
     expect(found, "ceduo-workflows(7) does not say", pattern)
@@ -272,17 +272,17 @@ def test_four_systems():
     expect_equal(min(cut, key=lambda n: cut[n]["share"]), "large reserves, just cut", "just cut, least comes through")
     share = {name: row["share"] for name, row in rows.items()}
     bare, = re.findall(r"\n\nwithout forest\n.*?arrive with more than 50 kJ +(\d+) \(", page, re.S)
-    expect_equal(told(r"large reserves let the fewest rocks through: (\d+), against (\d+) without forest\."), (share["large reserves"], int(bare)), "grown")
-    expect_equal(told(r"The simple coppice lets the most through: (\d+) grown and (\d+) just cut\."),
+    expect_equal(numbers_in_page(r"large reserves let the fewest rocks through: (\d+), against (\d+) without forest\."), (share["large reserves"], int(bare)), "grown")
+    expect_equal(numbers_in_page(r"The simple coppice lets the most through: (\d+) grown and (\d+) just cut\."),
                  (share["simple coppice, 25 years"], share["simple coppice, just cut"]), "simple coppice")
-    expect_equal(told(r"Of the four systems just cut, large reserves are best, with (\d+)\."), (share["large reserves, just cut"],), "just cut")
-    expect_equal(told(r"large reserves could absorb most: ([\d.]+) kJ per 100 m, and ([\d.]+) just cut") +
-                 told(r"selection coppice could absorb ([\d.]+), less than the simple coppice with ([\d.]+)\."),
+    expect_equal(numbers_in_page(r"Of the four systems just cut, large reserves are best, with (\d+)\."), (share["large reserves, just cut"],), "just cut")
+    expect_equal(numbers_in_page(r"large reserves could absorb most: ([\d.]+) kJ per 100 m, and ([\d.]+) just cut") +
+                 numbers_in_page(r"selection coppice could absorb ([\d.]+), less than the simple coppice with ([\d.]+)\."),
                  tuple(float(re.search(r"\(Eq. 4\), ([\d.]+)\s+kJ\s+per\s+100\s+m", page[page.index(f"\n\n{name}\n"):])[1])
                        for name in ("large reserves", "large reserves, just cut", "selection coppice", "simple coppice, 25 years")), "index")
     expect(share["selection coppice"] < share["simple coppice, 25 years"], "yet fewer rocks", share)
     means = [mean for mean, *_ in over_years(page)]
-    expect_equal(told(r"large reserves, just cut, let the fewest rocks through: (\d+) in the mean"), (means[list(rows).index("large reserves, just cut")],))
+    expect_equal(numbers_in_page(r"large reserves, just cut, let the fewest rocks through: (\d+) in the mean"), (means[list(rows).index("large reserves, just cut")],))
     expect_equal(min(means), means[list(rows).index("large reserves, just cut")], "over the years the least")
     for name in rows:
         if name in cut:
@@ -322,7 +322,7 @@ def test_four_systems_keys():
     expect_in("380", after)
     if FULL:
         found = tuple(int(re.search(r"above 50 kJ +(\d+)±", screen)[1]) for screen in (after, before))
-        expect_equal(told(r"(\d+) of 1000 rocks arrive with too much energy instead of (\d+)\."), found, "of 1000")
+        expect_equal(numbers_in_page(r"(\d+) of 1000 rocks arrive with too much energy instead of (\d+)\."), found, "of 1000")
 
 
 def test_four_systems_in_italian():
@@ -357,17 +357,17 @@ def test_two_cuts():
     expect_equal(len(bare), 1, "the slope without forest, which the options share")
     expect(200 < int(bare[0]) < 300, page)
     few, many = (rows[name]["share"] for name in ("selection", "simple"))
-    expect_equal(told(r"and (\d+) of 1000 rocks still arrive") + told(r"Through the selection coppice (\d+) arrive with too much"), (many, few))
-    expect_equal(told(r"The difference of (\d+) is four times its error"), (many - few,))
+    expect_equal(numbers_in_page(r"and (\d+) of 1000 rocks still arrive") + numbers_in_page(r"Through the selection coppice (\d+) arrive with too much"), (many, few))
+    expect_equal(numbers_in_page(r"The difference of (\d+) is four times its error"), (many - few,))
     difference, error = map(int, re.match(r"-(\d+)±(\d+)", rows["selection"]["difference"]).groups())
     expect(3.5 < difference / error < 4.5, "four times", rows)
     expect(few > 1.5 * 50, "not good enough", rows)
     (many, _, many_fail, years), (few, _, few_fail, _) = over_years(page)
-    expect_equal(told(r"In the mean of (\d+) years (\d+) of 1000 arrive .*?, and more than 50 in (\d+) of these years\. "
-                      r"Through the simple coppice (\d+) arrive, and more than 50 in (\d+) years\."),
+    expect_equal(numbers_in_page(r"In the mean of (\d+) years (\d+) of 1000 arrive .*?, and more than 50 in (\d+) of these years\. "
+                                 r"Through the simple coppice (\d+) arrive, and more than 50 in (\d+) years\."),
                  (years, few, few_fail, many, many_fail), "over the years")
     expect(re.search(r"It depends on uncertain inputs for 'simple', 'selection'\.", " ".join(page.split())), page)
-    expect(re.search(r"selection beats simple in \d+ % of plausible cases.*?: clear\. Measure first: roughness", " ".join(page.split())), page)
+    expect(re.search(r"'selection' beats 'simple' in \d+ % of plausible cases.*?: clear\. Measure first: roughness", " ".join(page.split())), page)
     assumed = page[page.index("Assumed, not measured"):]
     expect_in("density", assumed)
     expect_in("library's grounds", assumed)
@@ -422,7 +422,7 @@ def test_survey():
     expect(re.search(r"standards: Toscana asks for ≥ 60 standards a hectare \(art. 22, D.P.G.R. 48/R, 2003\); 11\d[.\d]* are kept: met",
                      page), page)
     expect(re.search(r" beats .*: (clear|likely|hardly ever worse|undecided)\.", " ".join(walk.outputs[4].split())), walk.outputs[4])
-    expect(re.search(r"as it is: The test of energy depends on .*roughness", " ".join(walk.outputs[4].split())),
+    expect(re.search(r"'as it is': The test of energy depends on .*roughness", " ".join(walk.outputs[4].split())),
            walk.outputs[4])
     for name, language in (("page.html", "en"), ("pagina.html", "it")):
         html = walk.read(name)
@@ -524,7 +524,7 @@ def test_uncertainty():
     walk = walked("uncertainty")
     now, lo, hi, low, high = map(int, re.search(r"current +(\d+) +(\d+)–(\d+) +(\d+)–(\d+)", walk.outputs[0]).groups())
     expect(450 < now < 510 and 440 < lo < hi < 520, "480, 30 more or less", now, lo, hi)
-    ends = told(r"90\\~% range by uncertain inputs is (\d+) to (\d+)\.")
+    ends = numbers_in_page(r"90\\~% range by uncertain inputs is (\d+) to (\d+)\.")
     expect(abs(low - ends[0]) <= 15 and abs(high - ends[1]) <= 15, ends, low, high)
     expect(high - low > 6 * (hi - lo), "the uncertainty is mostly far more")
     shares = [(m[1].strip(), int(m[2])) for m in re.finditer(r"^  (\S.{33}).* (\d+) % +\d+$", walk.outputs[0], re.M)]
@@ -532,8 +532,8 @@ def test_uncertainty():
     expect(shares[0][1] > 50, shares)
     expect(sum(share for _, share in shares) > 105, "more than 100 %", shares)  # 113 % of these two alone, from four runs
     expect_in("Scenes computed: 280.", walk.outputs[0])
-    order = re.search(r"large reserves, just cut beats .* in (\d+) % .*, worse in (\d+) %: likely\.", re.sub(r"\s+", " ", walk.outputs[1]))
-    better, worse = told(r"in some (\d+)\\~% of the plausible cases, and more in (\d+)\\~%\. The page calls that likely")
+    order = re.search(r"'large reserves, just cut' beats .* in (\d+) % .*, worse in (\d+) %: likely\.", re.sub(r"\s+", " ", walk.outputs[1]))
+    better, worse = numbers_in_page(r"in some (\d+)\\~% of the plausible cases, and more in (\d+)\\~%\. The page calls that likely")
     expect(order and abs(int(order[1]) - better) <= 5 and abs(int(order[2]) - worse) <= 5, better, worse, walk.outputs[1])
 
 
@@ -569,7 +569,7 @@ def test_fence():
 
 
 def test_fit():
-    """Fit: the ranges contain the values behind the stops, and the written scene has them"""
+    """Fit: the ranges contain the values that made the stops, and the written scene has them"""
     walk = walked("fit")
     for name, truth in (("roughness, m", 0.12), ("friction", 0.35)):
         low, high = map(float, re.search("^  " + name + r" .* (0\.\d+)–(0\.\d+)$", walk.outputs[0], re.M).groups())
@@ -710,5 +710,5 @@ if __name__ == "__main__":
         write_readme()
         sys.exit()
     suite = harness.Suite()
-    suite.run(harness.tests_of(sys.modules[__name__]))
+    suite.run(harness.list_tests(sys.modules[__name__]))
     suite.end()

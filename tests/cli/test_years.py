@@ -17,7 +17,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (CEDUO, FULL, PATIENCE, PROFILES, USAGE, Failure, Folder, ceduo, environment, expect, expect_equal,
-                     expect_in, expect_near, good, of_today, result, results, run_all)
+                     expect_in, expect_near, good, option_today, result, results, run_all)
 from pages import WHOLE, digits
 
 STANDS = PROFILES / "stands"
@@ -66,17 +66,17 @@ def run(mapping, years, *arguments, **options):
         return result("--years", years, *arguments, f.write("s.yaml", mapping), **options)
 
 
-def years_of(mapping, years, *arguments, **options):
+def run_years(mapping, years, *arguments, **options):
     """Return the years of a scene's first option."""
     return run(mapping, years, *arguments, **options)["options"][0]["years"]
 
 
-def keys_of(value):
+def json_shape(value):
     """Return the shape of JSON: its keys, at any depth, the first item of each list."""
     if isinstance(value, dict):
-        return {key: keys_of(item) for key, item in value.items()}
+        return {key: json_shape(item) for key, item in value.items()}
     if isinstance(value, list):
-        return [keys_of(item) for item in value[:1] if isinstance(item, dict)]
+        return [json_shape(item) for item in value[:1] if isinstance(item, dict)]
     return None
 
 
@@ -84,10 +84,10 @@ def without_year(year):
     return {key: value for key, value in year.items() if key != "year"}
 
 
-def of_own_law(value):
+def drop_alternatives(value):
     """Return it without the figures of the other energy law, which years lack, and without the answer, which is over the years."""
     if isinstance(value, list):
-        return [of_own_law(v) for v in value]
+        return [drop_alternatives(v) for v in value]
     return {k: v for k, v in value.items() if k not in ("other_energy", "verdict")}
 
 
@@ -103,7 +103,7 @@ def test_shape():
         for year in option["years"]:
             expect_equal(list(year), ["year", "cut", "stands", "summary", "controls"], "keys of a year")
             for key in ("stands", "summary", "controls"):
-                expect_equal(keys_of(of_own_law(year[key])), keys_of(of_own_law(option[key])), f"keys of {key}")
+                expect_equal(json_shape(drop_alternatives(year[key])), json_shape(drop_alternatives(option[key])), f"keys of {key}")
             expect(isinstance(year["cut"], bool), year["cut"])
             expect_equal(year["controls"][0]["bare"], option["controls"][0]["bare"], "bare")
         expect(set(option["rotation"]) >= {"years", "felled_m", "unprotected_contact", "unprotected_free_run",
@@ -114,7 +114,7 @@ def test_shape():
 def test_stretches():
     """--years: A:B and A:B:STEP, the last year only if a step meets it, and a single year"""
     for given, wanted in (("3:6", [3, 4, 5, 6]), ("0:7:3", [0, 3, 6]), ("4:4", [4]), ("4:4:9", [4]), ("0:1e1:5", [0, 5, 10])):
-        expect_equal([y["year"] for y in years_of(site(belt(0, 135, coppice()), rocks=1), given)], wanted, given)
+        expect_equal([y["year"] for y in run_years(site(belt(0, 135, coppice()), rocks=1), given)], wanted, given)
 
 
 def test_year_0():
@@ -126,18 +126,18 @@ def test_year_0():
         path = f.write("s.yaml", mapping)
         plain, found = result(path), result("--years", "0:1", path)
     for before, after in zip(plain["options"], found["options"]):
-        expect_equal(of_today(after), of_today(before), "the run beside the years")
+        expect_equal(option_today(after), option_today(before), "the run beside the years")
         year, same = after["years"][0], before["name"] != "reserves"
         expect_equal(year["cut"], not same, f"{before['name']}: cut in year 0")
         for key in ("stands", "summary", "controls"):
-            expect((of_own_law(year[key]) == of_own_law(before[key])) == same, f"{before['name']}: {key} of year 0 and of the run",
+            expect((drop_alternatives(year[key]) == drop_alternatives(before[key])) == same, f"{before['name']}: {key} of year 0 and of the run",
                    year[key], before[key])
     expect_equal(found["differences"], plain["differences"], "differences")
 
 
 def test_grows():
     """Before the cut shoots and trees grow along their curves, and the ADC and the energies follow"""
-    years = years_of(site(belt(0, 135, coppice(growth={**coppice()["growth"], "sdi_most": 0}), cut_year=40)), "0:10:5")
+    years = run_years(site(belt(0, 135, coppice(growth={**coppice()["growth"], "sdi_most": 0}), cut_year=40)), "0:10:5")
     for year in years[1:]:
         age, old = year["year"] - math.log(1 - 5 / 16) / 0.022, year["year"] - math.log(1 - 20 / 45) / 0.014
         d, tree = 0.16 * (1 - math.exp(-0.022 * age)), 0.45 * (1 - math.exp(-0.014 * old))
@@ -210,14 +210,14 @@ def cut_years(years):
 def test_cuts():
     """Cuts fall in cut_year and each rotation after it, by default when the shoots reach rotation age"""
     for given, wanted in ((7, [7, 17, 27]), (-5, [5, 15, 25]), (6.2, [7, 17, 27]), (0, [0, 10, 20, 30]), (40, [])):
-        found = years_of(site(belt(0, 135, coppice(10), cut_year=given), rocks=1), "0:30")
+        found = run_years(site(belt(0, 135, coppice(10), cut_year=given), rocks=1), "0:30")
         expect_equal(cut_years(found), wanted, f"cut_year {given}")
     age = -math.log(1 - 5 / 16) / 0.022  # for shoots of 5 cm
-    expect_equal(cut_years(years_of(site(belt(0, 135, coppice()), rocks=1), "0:60")), [8 + 25 * i for i in range(3)],
+    expect_equal(cut_years(run_years(site(belt(0, 135, coppice()), rocks=1), "0:60")), [8 + 25 * i for i in range(3)],
                  f"{25 - age:.1f} years before they are 25")
     young = coppice(shoots=[{"per_ha": 7500, "dbh_m": 0.05, "height_m": 6, "age_y": 22}])
-    expect_equal(cut_years(years_of(site(belt(0, 135, young), rocks=1), "0:30")), [3, 28], "22 years old")
-    expect_equal(cut_years(years_of(site(belt(0, 135, coppice(cutting=None), cut_year=3), rocks=1), "0:30")), [], "no rotation")
+    expect_equal(cut_years(run_years(site(belt(0, 135, young), rocks=1), "0:30")), [3, 28], "22 years old")
+    expect_equal(cut_years(run_years(site(belt(0, 135, coppice(cutting=None), cut_year=3), rocks=1), "0:30")), [], "no rotation")
 
 
 def test_a_rotation_later():
@@ -371,14 +371,14 @@ def test_index():
 # ---- CSV ----
 
 
-def cell_of(value):
+def format_cell(value):
     return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def same_cell(cell, value):
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return cell != "" and float(cell) == value
-    return cell == cell_of(value)
+    return cell == format_cell(value)
 
 
 def test_csv():
@@ -397,7 +397,7 @@ def test_csv():
         expect_equal(len(rows), len(wanted), "rows")
         for row, (option, year, control) in zip(rows, wanted):
             expect_equal((row["option"], row["year"], row["cut"]),
-                         (option["name"], str(year["year"]), cell_of(year["cut"])))
+                         (option["name"], str(year["year"]), format_cell(year["cut"])))
             compared = 0
             for name, cell in row.items():
                 root, *rest = name.split(".")
@@ -572,7 +572,7 @@ def test_alike_years():
         text = re.sub(r"\s+", " ", good(*WHOLE, "-n", 200, path).out)
         counts = [len(o["years"]) for o in result("--years", "-n", 1, path)["options"]]
     expect_in("'still' does not change: stand 'coppice' has no growth and cutting data.", text)
-    expect_in("'none' does not change: no stem stands in it.", text)
+    expect_in("'none' does not change: it has no stems.", text)
     expect("'grows' does not change" not in text, text)
     expect_equal(counts, [25, 25, 25], "years")
 
@@ -641,7 +641,7 @@ def test_right_after_the_cut():
 def test_old_and_young():
     """From year to year a coppice has fewer shoots, and fewer rocks pass: old ones protect better"""
     stand, rocks = coppice(45, [], trees=None), 20000 if FULL else 5000
-    years = years_of(site(belt(0, 135, stand, cut_year=1), rocks=rocks), "2:45")
+    years = run_years(site(belt(0, 135, stand, cut_year=1), rocks=rocks), "2:45")
     rows = []
     for year in years:
         s, a = year["stands"][0], year["controls"][0]["wooded"]
@@ -683,10 +683,10 @@ def test_minimum():
             expect_equal("must stay" in text, True in wanted, f"page, at least {least}")
             if wanted[1]:
                 expect_in(f"few: 60 single trees a hectare are fewer than the {least} that must stay.", text)
-    expect_equal(warned(result_of(site(*two))), [False, False], "not said")
+    expect_equal(warned(run_result(site(*two))), [False, False], "not said")
 
 
-def result_of(mapping):
+def run_result(mapping):
     with Folder() as f:
         return result(f.write("s.yaml", mapping))["options"][0]["stands"]
 
@@ -694,13 +694,13 @@ def result_of(mapping):
 def test_minimum_in_years():
     """minimum.reserves_per_ha: in the years too, from the first cut that leaves too few"""
     for stay, kept in (([40, 20], True), ([40, 19], False)):
-        years = years_of(site(belt(0, 135, coppice(8, stay), cut_year=3), minimum={"reserves_per_ha": 60}, rocks=20), "0:12")
+        years = run_years(site(belt(0, 135, coppice(8, stay), cut_year=3), minimum={"reserves_per_ha": 60}, rocks=20), "0:12")
         expect_equal([warned(y["stands"]) for y in years], [[not kept and y["year"] >= 3] for y in years], f"stay {stay}")
 
 
 def test_minimum_of_nothing():
     """minimum.reserves_per_ha: a cut that leaves no stem is noted in its own year"""
-    years = years_of(site(belt(0, 135, coppice(8, []), cut_year=3), minimum={"reserves_per_ha": 60}, rocks=20), "0:5")
+    years = run_years(site(belt(0, 135, coppice(8, []), cut_year=3), minimum={"reserves_per_ha": 60}, rocks=20), "0:5")
     expect_equal([warned(y["stands"])[0] for y in years], [False] * 3 + [True] * 3, "noted")
 
 
@@ -724,7 +724,7 @@ def find(mapping, path, lo, hi, goal, *arguments):
                     f.write("s.yaml", mapping)).json()[0]
 
 
-def at(mapping, path, value):
+def set_value(mapping, path, value):
     """Return a copy with the number at a path like 'a[0].b.c' set."""
     changed = copy.deepcopy(mapping)
     place, keys = changed, re.findall(r"[\w]+|(?<=\[)\d+", path)
@@ -734,7 +734,7 @@ def at(mapping, path, value):
     return changed
 
 
-def goal_of(run_found, goal):
+def compute_goal(run_found, goal):
     """Return --find's goal, from a plain run: the worst belt, the worst control."""
     option = run_found["options"][0]
     if goal == "adc":
@@ -754,7 +754,7 @@ def passes(goal, value, target):
 def test_find_reserves():
     """60 reserves of 20 cm miss 30 m; --find: 379 per hectare meet it, 378 do not"""
     mapping = reserves()
-    adc = goal_of(run(mapping, "0:0"), "adc")
+    adc = compute_goal(run(mapping, "0:0"), "adc")
     expect(189 < adc < 190, f"60 a hectare: ADC {adc} (the paper: some 190 m)")
     found = find(mapping, RESERVES, 1, 5000, "adc")
     expect(set(found) >= FOUND, "missing", FOUND - set(found))
@@ -763,7 +763,7 @@ def test_find_reserves():
     expect_equal({key: found[key] for key in wanted}, wanted)
     expect(found["goal_at_value"] < 30 and found["evaluations"] < 20, found)
     for per_ha, light in ((378, "fail"), (379, "pass")):
-        option = run(at(mapping, RESERVES, per_ha), "0:0")["options"][0]
+        option = run(set_value(mapping, RESERVES, per_ha), "0:0")["options"][0]
         expect_equal(option["controls"][0]["lights"]["contact"], light, f"{per_ha} a hectare")
     expect_equal(option["stands"][0]["adc"]["adc_m"], found["goal_at_value"], "ADC with 379")
 
@@ -779,7 +779,7 @@ def test_find_over_years():
         for goal in goals:
             name = goal.split("=")[0]
             share = {"arrive": "reach_probability", "exceed": "exceed_probability"}.get(name)
-            wanted = sum(a[share] for a in arrivals) / 5 if share else max(goal_of({"options": [row]}, name) for row in rows)
+            wanted = sum(a[share] for a in arrivals) / 5 if share else max(compute_goal({"options": [row]}, name) for row in rows)
             found = find(mapping, RESERVES, 60, 60, goal, "--years")
             expect_near(found["goal_at_value"], wanted, 1e-9 * wanted, name)
 
@@ -822,9 +822,9 @@ def test_find_and_forward():
     cases = [random_case(rng) for _ in range(GOALS)]
     checks = []  # (result, goal, target, ends, values to try)
     with Folder() as f:
-        aims = forward(f, "aim", [at(mapping, path, inside) for mapping, path, *_, inside in cases])
+        aims = forward(f, "aim", [set_value(mapping, path, inside) for mapping, path, *_, inside in cases])
         for i, ((mapping, path, whole, lo, hi, goal, _), aim) in enumerate(zip(cases, aims)):
-            target = goal_of(aim, goal) * rng.choice((1, 1 + 1e-3, 1 - 1e-3))
+            target = compute_goal(aim, goal) * rng.choice((1, 1 + 1e-3, 1 - 1e-3))
             found = good("--find", f"{path}={lo!r}:{hi!r}", "--goal", f"{goal}={target!r}", "-f", "json",
                          f.write(f"find-{i}.yaml", mapping)).json()[0]
             expect_equal((found["lo"], found["hi"], found["target"]), (lo, hi, target), "what was asked")
@@ -838,8 +838,8 @@ def test_find_and_forward():
                 expect(ends[0] <= found["value"] <= ends[1] and (not whole or found["value"] == int(found["value"])), found)
                 values += [found["value"], found["value"] + (step if found["side"] == "largest" else -step)]
             checks.append((found, goal, target, ends, [(mapping, path, v) for v in values]))
-        seen = iter(forward(f, "check", [at(*one) for *_, ones in checks for one in ones if one[2] > 0]))
-        goals = [[goal_of(next(seen), goal) if one[2] > 0 else None for one in ones] for _, goal, _, _, ones in checks]
+        seen = iter(forward(f, "check", [set_value(*one) for *_, ones in checks for one in ones if one[2] > 0]))
+        goals = [[compute_goal(next(seen), goal) if one[2] > 0 else None for one in ones] for _, goal, _, _, ones in checks]
     crossings = sum(one_goal(found, goal, target, ends, g) for (found, goal, target, ends, _), g in zip(checks, goals))
     print(f"# {len(checks)} goals: {crossings} crossings, {sum(not c[0]['found'] for c in checks)} not found")
     expect(crossings > GOALS / 2, f"only {crossings} crossings")
@@ -871,7 +871,7 @@ def test_find_rocks():
         found = find(mapping, RESERVES, 1, 3000, goal)
         name, value = goal.partition("=")[0], found["value"]
         expect_equal((found["found"], found["side"], found["target"], found["rocks"]), (True, "smallest", target, 1000), goal)
-        here, below = (goal_of(run(at(mapping, RESERVES, v), "0:0"), name) for v in (value, value - 1))
+        here, below = (compute_goal(run(set_value(mapping, RESERVES, v), "0:0"), name) for v in (value, value - 1))
         expect_equal(here, found["goal_at_value"], f"{goal}: forward at {value}")
         expect(here <= target < below, f"{goal}: {here} at {value}, {below} at {value - 1}", found)
     more = find(mapping, RESERVES, 1, 3000, "exceed=0.3", "-n", 3000)
@@ -884,7 +884,7 @@ def test_find_index():
     """With the contact model index the goal energy is the residual energy; exceed is refused"""
     mapping = reserves(simulation={"contact_model": "index"})
     found = find(mapping, RESERVES, 1, 3000, "energy=40")
-    here, below = (goal_of(run(at(mapping, RESERVES, v), "0:0"), "energy") for v in (found["value"], found["value"] - 1))
+    here, below = (compute_goal(run(set_value(mapping, RESERVES, v), "0:0"), "energy") for v in (found["value"], found["value"] - 1))
     expect_equal(here, found["goal_at_value"], "residual_kJ")
     expect(here <= 40 < below, here, below)
     refused(mapping, [f"{RESERVES}=1:3000", "--goal", "exceed"], "index")
@@ -911,7 +911,7 @@ def test_find_whole():
 
 
 def test_find_nothing():
-    """If nothing passes: found false, no value, the nearest, status 0; and the page says so"""
+    """If nothing passes: found false, no value, the nearest one, status 0; and the page reports it"""
     found = find(reserves(), RESERVES, 10, 300, "adc")
     expect_equal({k: found[k] for k in ("found", "value", "side", "goal_at_value", "nearest")},
                  {"found": False, "value": None, "side": None, "goal_at_value": None, "nearest": 300})
@@ -936,7 +936,7 @@ def test_find_largest():
     mapping = reserves(900, rocks=500)
     found = find(mapping, "forest[0].from_m", 0, 120, "exceed=0.3")
     expect_equal((found["found"], found["side"]), (True, "largest"))
-    here = goal_of(run(at(mapping, "forest[0].from_m", found["value"]), "0:0"), "exceed")
+    here = compute_goal(run(set_value(mapping, "forest[0].from_m", found["value"]), "0:0"), "exceed")
     expect(here == found["goal_at_value"] <= 0.3, found, here)
 
 
@@ -959,7 +959,7 @@ def test_find_formats():
         expect_equal(re.findall(r"^(\S+):$", text, re.M), [str(a), str(b)], "scenes named")
         expect(str(a) not in good(*arguments[:-1]).out, "one scene needs no name")
         expect_equal(re.findall(r"^forest\S+ = (\d+)$", text, re.M), ["379", "334"])
-        expect("ADC 29.98 m (below 30 m is wanted)" in text, text)
+        expect("ADC 29.98 m (goal: below 30 m)" in text, text)
         good(*arguments, "-f", "json", "-o", f.path / "out.json")
         expect_equal([json.loads(x) for x in (f.path / "out.json").read_text().splitlines()], found)
         one, two = (good("--find", f"{RESERVES}=1:3000", "--goal", "exceed", "-j", j, a).out for j in (1, 2))

@@ -88,14 +88,14 @@ PRESETS = {
 }
 
 
-def yield_of(mapping, *arguments):
+def run_yield(mapping, *arguments):
     with Folder() as f:
         return result("--years", "-n", 2, *arguments, f.write("s.yaml", mapping))["options"]
 
 
 def test_presets_by_hand():
     """One preset of each system: felled, standing and dead volume of a rotation equal the sum by hand"""
-    options = yield_of(site(options=[(name, [belt(0, 135, name, cut_year=1)]) for name in PRESETS]))
+    options = run_yield(site(options=[(name, [belt(0, 135, name, cut_year=1)]) for name in PRESETS]))
     for option in options:
         system, felled = PRESETS[option["name"]]
         found, years = option["yield"], system.rotation
@@ -109,10 +109,10 @@ def test_presets_by_hand():
 
 
 def test_standards_are_no_gift():
-    """The yield has a maximum over the number of standards: they take growing space, and stools die in their shade; too many
-    have no yield, and the page says so"""
+    """The yield has a maximum over the number of standards: they take growing space, and stools die in their shade. Too many
+    have no yield, and the page reports it"""
     numbers = range(0, 336, 15)
-    found = [o["yield"]["cut_m3_ha_per_year"] for o in yield_of(site(options=[
+    found = [o["yield"]["cut_m3_ha_per_year"] for o in run_yield(site(options=[
         (f"{n} standards", [belt(0, 135, {"base": "simple-coppice", "cutting": {"stay_per_ha": [n / 2, n / 2]}}, cut_year=1)])
         for n in numbers]), "--rocks", 1)]
     best = found.index(max(found))
@@ -123,16 +123,16 @@ def test_standards_are_no_gift():
         expect_near(value, System(2500, 25, 1, 3, [n / 2, n / 2]).felled() / 25, 1e-9, f"{n} standards")
     what = site(options=[(f"{n} standards", [belt(0, 135, {"base": "simple-coppice", "cutting": {"stay_per_ha": [n]}}, cut_year=1)])
                          for n in (60, 600)])
-    expect_equal(yield_of(what)[1]["yield"], None, "600 standards")
+    expect_equal(run_yield(what)[1]["yield"], None, "600 standards")
     with Folder() as f:
         page = " ".join(good(*WHOLE, "--years", "-n", 2, f.write("s.yaml", what)).out.split())
-    expect_in("'600 standards' keeps more standards than the ground bears (1", page)
+    expect_in("'600 standards': the standards would take 1", page)
     expect_in("Side light, roots and the quality of the wood are not modelled.", page)
 
 
 def test_balance():
     """Over a repeating rotation felled volume is growth minus deaths, within rounding"""
-    options = yield_of(site(options=[(name, [belt(0, 135, name)]) for name in PRESETS]))
+    options = run_yield(site(options=[(name, [belt(0, 135, name)]) for name in PRESETS]))
     for option in options:
         system, _ = PRESETS[option["name"]]
         grown, died = system.grown_and_died()
@@ -143,7 +143,7 @@ def test_balance():
 
 def test_first_cut():
     """The first cut fells the existing stand, later ones a whole rotation's growth"""
-    found = yield_of(site(belt(0, 135, coppice(growth={**coppice()["growth"], "sdi_most": 0}), cut_year=0)))[0]["yield"]["cuts"]
+    found = run_yield(site(belt(0, 135, coppice(growth={**coppice()["growth"], "sdi_most": 0}), cut_year=0)))[0]["yield"]["cuts"]
     before = 7500 * volume(0.05, 6) + 60 * volume(0.2, 12)
     after = sum(30 * volume(*size(TREES, age)) for age in (25, 50))
     expect_equal([cut["year"] for cut in found], [0, 25])
@@ -153,7 +153,7 @@ def test_first_cut():
 
 def test_staggered_is_single():
     """Felled at once or in sections years apart, a forest has the same yield"""
-    once, staggered = yield_of(site(options=[
+    once, staggered = run_yield(site(options=[
         ("once", [belt(0, 120, coppice(), cut_year=5)]),
         ("staggered", [belt(0, 40, coppice(), cut_year=5), belt(40, 80, coppice(), cut_year=13), belt(80, 120, coppice(), cut_year=21)])]))
     for key in ("cut_m3_ha_per_year", "standing_m3_ha_mean", "died_m3_ha_per_year"):
@@ -164,7 +164,7 @@ def test_staggered_is_single():
 def test_length_weights():
     """Belts are weighted by length; gaps and belts without stems do not count"""
     poor = coppice(stools={"per_ha": 1000, "spacing_m": 0.35}, shoots=[{"per_ha": 3000, "dbh_m": 0.05, "height_m": 6}])
-    rich, mixed, other = yield_of(site(options=[
+    rich, mixed, other = run_yield(site(options=[
         ("rich", [belt(0, 135, coppice())]), ("mixed", [belt(0, 30, coppice()), belt(40, 130, poor), belt(130, 135, "bare")]),
         ("poor", [belt(0, 135, poor)])]))
     for key in ("cut_m3_ha_per_year", "standing_m3_ha_mean"):
@@ -173,7 +173,7 @@ def test_length_weights():
 
 def test_unknown():
     """Without growth or cutting, or without a forest, the yield is null, never 0"""
-    options = yield_of(site(options=[
+    options = run_yield(site(options=[
         ("no growth", [belt(0, 135, coppice(growth=None))]), ("no cut", [belt(0, 135, coppice(cutting=None))]),
         ("nothing", []), ("one of two", [belt(0, 50, coppice()), belt(50, 135, coppice(growth=None))])]))
     expect_equal([o["yield"] for o in options], [None] * 4)

@@ -10,9 +10,9 @@
 
 #define NAME "profiles/scenes/fuzz.yaml" /* no such file; references are relative to it */
 
-static void fail(const char *what, const char *text)
+static void fail(const char *label, const char *text)
 {
-    fprintf(stderr, "%s:\n%s\n", what, text);
+    fprintf(stderr, "%s:\n%s\n", label, text);
     abort();
 }
 

@@ -25,9 +25,9 @@ static const char *const uses[] = {
     "uncertainty: {draws: %s}\n",
 };
 
-static void fail(const char *what, const char *text)
+static void fail(const char *label, const char *text)
 {
-    fprintf(stderr, "%s: %s\n", what, text);
+    fprintf(stderr, "%s: %s\n", label, text);
     abort();
 }
 

@@ -13,21 +13,21 @@
 
 /* ---- call paths ---- */
 
-#define WAYS_MAX   ((unsigned long)1 << 20) /* calls recorded per task */
-#define WAY_FRAMES 16
+#define PATHS_MAX   ((unsigned long)1 << 20) /* calls recorded per task */
+#define PATH_FRAMES 16
 
-static bool noting;
-static uint64_t ways[WAYS_MAX];
+static bool recording;
+static uint64_t paths[PATHS_MAX];
 
 /* Return a hash of the functions on the call stack. */
 static uint64_t hash_call_path(void)
 {
-    void *frames[WAY_FRAMES];
-    uint64_t way = 0xcbf29ce484222325u;
-    int n = backtrace(frames, WAY_FRAMES);
+    void *frames[PATH_FRAMES];
+    uint64_t path = 0xcbf29ce484222325u;
+    int n = backtrace(frames, PATH_FRAMES);
     for (int i = 0; i < n; i++)
-        way = (way ^ (uintptr_t)frames[i]) * 0x100000001b3u;
-    return way;
+        path = (path ^ (uintptr_t)frames[i]) * 0x100000001b3u;
+    return path;
 }
 
 /* Count the calls first…end - 1 with the same path as `call`, at most 2. */
@@ -35,7 +35,7 @@ static int count_same_paths(unsigned long call, unsigned long first, unsigned lo
 {
     int n = 0;
     for (unsigned long i = first; i < end && n < 2; i++)
-        n += ways[i] == ways[call];
+        n += paths[i] == paths[call];
     return n;
 }
 
@@ -50,8 +50,8 @@ atomic_long grow_at;
 bool fails(void)
 {
     unsigned long n = atomic_fetch_add(&calls, 1) + 1;
-    if (noting && n < WAYS_MAX)
-        ways[n] = hash_call_path();
+    if (recording && n < PATHS_MAX)
+        paths[n] = hash_call_path();
     if (fail_at == 0 || !(fail_on ? n >= fail_at : n == fail_at))
         return false;
     errno = ENOMEM;
@@ -160,8 +160,8 @@ static void sleep_ms(long ms)
 /* Wait until other threads have allocated n times. */
 static void wait_for_others(unsigned long n)
 {
-    const unsigned long enough = calls + n;
-    for (int i = 0; calls < enough && i < PATIENCE; i++)
+    const unsigned long calls_wanted = calls + n;
+    for (int i = 0; calls < calls_wanted && i < PATIENCE; i++)
         sleep_ms(1);
 }
 
@@ -174,65 +174,66 @@ void fail_others(void)
     relieve();
 }
 
-struct told told;
+struct progress_calls progress_calls;
 
-void note_told(bool counts)
+void count_progress_call(bool counts)
 {
-    int inside = atomic_fetch_add(&told.inside, 1) + 1;
-    told.most_inside = inside > told.most_inside ? inside : told.most_inside;
-    if (counts && ++told.times == told.at && told.meanwhile)
-        told.meanwhile();
-    told.inside--;
+    int inside = atomic_fetch_add(&progress_calls.inside, 1) + 1;
+    progress_calls.inside_max = inside > progress_calls.inside_max ? inside : progress_calls.inside_max;
+    if (counts && ++progress_calls.times == progress_calls.index && progress_calls.callback)
+        progress_calls.callback();
+    progress_calls.inside--;
 }
 
-void begin_to_tell(void (*meanwhile)(void), int at)
+void begin_progress(void (*callback)(void), int index)
 {
-    told.meanwhile = meanwhile;
-    told.at = at;
-    told.most_inside = told.times = 0;
+    progress_calls.callback = callback;
+    progress_calls.index = index;
+    progress_calls.inside_max = progress_calls.times = 0;
 }
 
-void others_go_on(void)
+void wait_for_other_threads(void)
 {
     wait_for_others(500);
 }
 
-bool begin(task *todo, unsigned long at, bool on)
+bool run_task(task *work, unsigned long at, bool all_later)
 {
     found = 0xcbf29ce484222325u;
     calls = 0;
     live = 0;
     fail_at = at;
-    fail_on = on;
-    bool done = todo();
+    fail_on = all_later;
+    bool done = work();
     fail_at = 0;
     if (live != 0)
-        fail_msg("allocation %lu%s: %ld are not freed", at, on ? " and all that follow" : "", (long)live);
+        fail_msg("allocation %lu%s: %ld are not freed", at, all_later ? " and all that follow" : "", (long)live);
     return done;
 }
 
-enum { FEW = 1000 };
+enum { CALLS_FEW = 1000 };
 
-void without_memory(task *todo)
+void without_memory(task *work)
 {
-    assert_true(begin(todo, 0, false));
+    assert_true(run_task(work, 0, false));
     const uint64_t wanted = found, all = calls;
-    assert_true(all < WAYS_MAX);
+    assert_true(all < PATHS_MAX);
     hash_call_path(); /* its first use allocates memory */
-    noting = true;
-    assert_true(begin(todo, 0, false));
-    noting = false;
+    recording = true;
+    assert_true(run_task(work, 0, false));
+    recording = false;
     assert_int_equal(found, wanted);
     unsigned long failed = 0, tried = 0;
-    bool each = FULL_OR(all < FEW, false);
+    bool each = FULL_OR(all < CALLS_FEW, false);
     for (unsigned long at = 1; at <= all; at++)
-        for (int on = 0; on < 2 && (each || count_same_paths(at, 1, at) < 2 || count_same_paths(at, at + 1, all + 1) == 0);
-             on++) {
-            bool done = begin(todo, at, on);
+        for (int all_later = 0;
+             all_later < 2 && (each || count_same_paths(at, 1, at) < 2 || count_same_paths(at, at + 1, all + 1) == 0);
+             all_later++) {
+            bool done = run_task(work, at, all_later);
             failed += !done;
             tried++;
             if (done && found != wanted)
-                fail_msg("allocation %lu%s: another result", at, on ? " and all that follow" : "");
+                fail_msg("allocation %lu%s: another result", at, all_later ? " and all that follow" : "");
         }
     print_message("# %lu calls, %lu of %lu times the task ended without memory\n", (unsigned long)all, failed, tried);
 }

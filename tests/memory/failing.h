@@ -18,12 +18,12 @@
 typedef bool task(void);
 
 /* Run a task with each failure. */
-void without_memory(task *todo);
+void without_memory(task *work);
 
-/* Run a task with the failure of call `at` (0: none), and of all later calls if `on`. */
-bool begin(task *todo, unsigned long at, bool on);
+/* Run a task with the failure of call `index` (0: none), and of all later calls if `all_later`. */
+bool run_task(task *work, unsigned long index, bool all_later);
 
-/* Append bytes to the results of the task. */
+/* Add bytes to the results of the task. */
 void add(const void *bytes, size_t n);
 
 /* True if the current allocation fails. */
@@ -39,17 +39,19 @@ bool is_done(enum ceduo_status status);
 
 /* Let all other threads fail once, and wait until they have reported it. */
 void fail_others(void);
-void others_go_on(void);
 
-/* Progress calls of a task on several threads; `meanwhile` is called at call number `at` (may be NULL). */
-extern struct told {
-    void (*meanwhile)(void);
-    int at;
-    atomic_int inside, most_inside, times;
-} told;
+/* Wait until other threads have allocated many times. */
+void wait_for_other_threads(void);
+
+/* Progress calls of a task on several threads; `callback` is called at call number `index` (may be NULL). */
+extern struct progress_calls {
+    void (*callback)(void);
+    int index;
+    atomic_int inside, inside_max, times;
+} progress_calls;
 
 /* `counts`: count this call. */
-void note_told(bool counts);
-void begin_to_tell(void (*meanwhile)(void), int at);
+void count_progress_call(bool counts);
+void begin_progress(void (*callback)(void), int index);
 
 #endif

@@ -327,14 +327,14 @@ static bool sure(void)
 static void tell(void *context, uint64_t done, uint64_t all)
 {
     (void)context, (void)done, (void)all;
-    note_told(true);
+    count_progress_call(true);
 }
 
 static enum ceduo_status uncertainty_on_two_threads(uint64_t rocks, void (*meanwhile)(void))
 {
     struct ceduo_uncertainty_def def = uncertainty_def(100, rocks);
     def.progress = tell;
-    begin_to_tell(meanwhile, 1);
+    begin_progress(meanwhile, 1);
     return ask_uncertainty(def);
 }
 
@@ -342,16 +342,16 @@ static enum ceduo_status uncertainty_on_two_threads(uint64_t rocks, void (*meanw
  * running at its next call. */
 TEST(progress_calls_never_overlap)
 {
-    assert_int_equal(uncertainty_on_two_threads(1000, others_go_on), CEDUO_OK);
-    assert_int_equal(told.most_inside, 1);
-    assert_true(told.times > 1);
+    assert_int_equal(uncertainty_on_two_threads(1000, wait_for_other_threads), CEDUO_OK);
+    assert_int_equal(progress_calls.inside_max, 1);
+    assert_true(progress_calls.times > 1);
 }
 
 /* A thread without memory stops the others: only a few of 404 evaluations are made. */
 TEST(one_failure_stops_all_threads)
 {
     assert_int_equal(uncertainty_on_two_threads(8, fail_others), CEDUO_NO_MEMORY);
-    assert_true(told.times < 100);
+    assert_true(progress_calls.times < 100);
 }
 
 /* An uncertain input must exist in the scene. */
@@ -373,9 +373,10 @@ static bool fit_surface(void)
     static double rows[ROWS], u[POINTS * INPUTS], values[FIGURES * POINTS];
     static struct ceduo_replicates y[FIGURES * POINTS], changes[FIGURES * POINTS];
     const double *const draws[] = {rows};
-    struct ceduo_input of[INPUTS] = {{.kind = CEDUO_INPUT_DRAWS, .places_count = 1, .draws_count = ROWS, .draws = draws}};
+    struct ceduo_input surface_inputs[INPUTS] = {
+        {.kind = CEDUO_INPUT_DRAWS, .places_count = 1, .draws_count = ROWS, .draws = draws}};
     for (size_t i = 1; i < INPUTS; i++)
-        of[i] = (struct ceduo_input){.kind = CEDUO_INPUT_RANGE, .hi = 1};
+        surface_inputs[i] = (struct ceduo_input){.kind = CEDUO_INPUT_RANGE, .hi = 1};
     for (size_t i = 0; i < ROWS; i++)
         rows[i] = (double)i;
     LOCAL(ceduo_surface, surface) = NULL;
@@ -386,7 +387,7 @@ static bool fit_surface(void)
             y[i].value[g] = sin(40 * u[i % POINTS * INPUTS + i / POINTS]) + .1 * sin((double)(i * CEDUO_SURFACE_GROUPS + g));
     const struct ceduo_surface_figure figure = {.y = y, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
     if (status == CEDUO_OK)
-        status = ceduo_surface_open(of, INPUTS, u, POINTS, &surface);
+        status = ceduo_surface_open(surface_inputs, INPUTS, u, POINTS, &surface);
     if (status == CEDUO_OK)
         status = ceduo_surface_fit(surface, &figure, &fit);
     if (status == CEDUO_OK)
@@ -487,22 +488,22 @@ static void make_roll(void)
     }
 }
 
-static bool follow_seventh(struct ceduo_trajectory *way)
+static bool follow_seventh(struct ceduo_trajectory *trajectory)
 {
-    enum ceduo_status status = ceduo_trajectory_run(&site.scene, &site.option, 7, NULL, way, NULL);
+    enum ceduo_status status = ceduo_trajectory_run(&site.scene, &site.option, 7, NULL, trajectory, NULL);
     if (status == CEDUO_OK)
-        add(&way->x, sizeof way->x);
+        add(&trajectory->x, sizeof trajectory->x);
     return is_done(status);
 }
 
 static bool follow_roll(void)
 {
     make_roll();
-    struct ceduo_trajectory way;
-    bool done = follow_seventh(&way);
+    struct ceduo_trajectory trajectory;
+    bool done = follow_seventh(&trajectory);
     if (done) {
-        assert_true(way.end == CEDUO_LEFT_SLOPE && way.stems_hit > 100);
-        add(&way.stems_hit, sizeof way.stems_hit);
+        assert_true(trajectory.end == CEDUO_LEFT_SLOPE && trajectory.stems_hit > 100);
+        add(&trajectory.stems_hit, sizeof trajectory.stems_hit);
     }
     return done;
 }
@@ -524,8 +525,8 @@ static bool record_roll(void)
 static bool follow_one(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_trajectory way;
-    return follow_seventh(&way);
+    struct ceduo_trajectory trajectory;
+    return follow_seventh(&trajectory);
 }
 
 static bool follow(void)
@@ -534,11 +535,11 @@ static bool follow(void)
     LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&site.scene, &site.option);
     bool good = f;
     for (uint64_t rock = 0; rock < 3 && good; rock++) {
-        struct ceduo_trajectory way;
+        struct ceduo_trajectory trajectory;
         struct ceduo_crossing crossing;
-        good = is_done(ceduo_tracer_run(f, rock, NULL, &way, &crossing));
+        good = is_done(ceduo_tracer_run(f, rock, NULL, &trajectory, &crossing));
         if (good)
-            add(&way.x, sizeof way.x);
+            add(&trajectory.x, sizeof trajectory.x);
     }
     return good;
 }

@@ -39,23 +39,24 @@ static const char faulty[] = "ceduo: scene/1\nrock: {diameter_m: -1, size: 2}\ns
                              "release: {x_m: [1]}\nsimulation: {law: lumpd, rocks: 1.5, seed: 'a'}\ncontrols: 1\n"
                              "forest: [{from_m: x}]\n";
 
-static const char by_csv[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n";
+static const char csv_scene[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n";
 
-static const char seen[] =
+static const char observed[] =
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\nrelease: {height_m: 1}\n"
     "observed:\n"
     "  - {name: few, stops: {x_m: stops.csv, only: block=1, use: check}, release: {vx_m_s: 3}, rock: {diameter_m: 0.4}}\n"
     "  - {passed: {x_m: 30, count: 1, of: 2}, on_the_way: {from_m: 5, to_m: 9, height_m: {mean: 1, sd: 1, n: 4}}}\n"
     "uncertainty: {draws: draws.csv, rows: [{path: release.vx_m_s, lo: 1, hi: 3}]}\n";
 
-static const char upward[] =
+static const char upward_scene[] =
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols_m: [90]\n"
     "slope: {reversed: true, vertices_m: [[0, 0], [60, 20], [100, 50]],"
     " materials: [{from_m: 0, to_m: 70, material: talus}, {from_m: 70, to_m: 100, material: cliff}]}\n";
 
-static const char kinds[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
-                            "observed: {speed: [{x_m: 30, values: [4, 5]}, {x_m: 40, mean: 3, sd: 1, n: 4}], scars: {from_m: "
-                            "2, to_m: 9, height_m: [1]}}\n";
+static const char kinds_scene[] =
+    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
+    "observed: {speed: [{x_m: 30, values: [4, 5]}, {x_m: 40, mean: 3, sd: 1, n: 4}], scars: {from_m: "
+    "2, to_m: 9, height_m: [1]}}\n";
 
 static const char uncertain[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
                                 "blocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}\n"
@@ -72,7 +73,7 @@ static const char survey[] =
     "plot,area_m2,kind,stool,species,dbh_cm,height_m,note\n1,100,shoot,1,beech,6,7,x\n1,100,shoot,1,,5,,\n"
     "2,120,standard,,quercus-cerris,20,13,\n2,,stump,,,30,0.2,\n";
 
-static bool arenas_fail; /* each piece of them, as if it were an allocation */
+static bool arenas_fail; /* fail each allocation from an arena, too */
 static char scene_path[256], survey_path[256], link_path[256], linked_path[256];
 
 static int set_up(void **state)
@@ -90,21 +91,21 @@ static int set_up(void **state)
     in_folder(link_path, "link");
     in_folder(linked_path, "linked");
     assert_int_equal(symlink("linked", link_path), 0);
-    put("scene.yaml", scene);
-    put("slope.yaml", slope);
-    put("stand.yaml", stand);
-    put("faulty.yaml", faulty);
-    put("csv.yaml", by_csv);
-    put("seen.yaml", seen);
-    put("upward.yaml", upward);
-    put("kinds.yaml", kinds);
-    put("uncertain_scene.yaml", uncertain);
-    put("uncertain.yaml", uncertain_stand);
-    put("survey.csv", survey);
-    put("stops.csv", "block,x_m\n1,40\n2,50\n1,60\n");
-    put("draws.csv", "rock.density_kg_m3\n2600\n2550\n");
-    put("ceduo/scenes/mill.yaml", by_csv);
-    put("profile.csv", "distance,elevation\n0,50\n40,20\n100,0\n");
+    folder_write("scene.yaml", scene);
+    folder_write("slope.yaml", slope);
+    folder_write("stand.yaml", stand);
+    folder_write("faulty.yaml", faulty);
+    folder_write("csv.yaml", csv_scene);
+    folder_write("observed.yaml", observed);
+    folder_write("upward.yaml", upward_scene);
+    folder_write("kinds.yaml", kinds_scene);
+    folder_write("uncertain_scene.yaml", uncertain);
+    folder_write("uncertain.yaml", uncertain_stand);
+    folder_write("survey.csv", survey);
+    folder_write("stops.csv", "block,x_m\n1,40\n2,50\n1,60\n");
+    folder_write("draws.csv", "rock.density_kg_m3\n2600\n2550\n");
+    folder_write("ceduo/scenes/mill.yaml", csv_scene);
+    folder_write("profile.csv", "distance,elevation\n0,50\n40,20\n100,0\n");
     return 0;
 }
 
@@ -119,7 +120,7 @@ static void add_text(const struct text *text)
     add(text->bytes, text->length);
 }
 
-/* Nothing here is asked of the disk, and it would be waited for some thousand times. */
+/* Skip fsync(): it would be called thousands of times, and no test depends on it. */
 int __wrap_fsync(int fd);
 
 int __wrap_fsync(int fd)
@@ -128,14 +129,14 @@ int __wrap_fsync(int fd)
     return 0;
 }
 
-/* What stands in an arena comes from few pages: here each piece of it can fail. */
+/* An arena allocates few pages; these let each allocation from it fail. */
 void *__real_ceduo_arena_alloc(struct arena *arena, size_t size);
-void *__real_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
+void *__real_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *capacity, size_t size);
 char *__real_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__real_ceduo_arena_string(struct arena *arena, const char *string);
 char *__real_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
 void *__wrap_ceduo_arena_alloc(struct arena *arena, size_t size);
-void *__wrap_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
+void *__wrap_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *capacity, size_t size);
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__wrap_ceduo_arena_string(struct arena *arena, const char *string);
 __attribute__((format(printf, 2, 0))) char *__wrap_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
@@ -154,9 +155,9 @@ void *__wrap_ceduo_arena_alloc(struct arena *arena, size_t size)
     return arena_fails(arena) ? NULL : __real_ceduo_arena_alloc(arena, size);
 }
 
-void *__wrap_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
+void *__wrap_ceduo_arena_grow(struct arena *arena, void *items, size_t n, size_t more, size_t *capacity, size_t size)
 {
-    return arena_fails(arena) ? NULL : __real_ceduo_arena_grow(arena, items, n, more, room, size);
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_grow(arena, items, n, more, capacity, size);
 }
 
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)
@@ -174,7 +175,7 @@ char *__wrap_ceduo_arena_vformat(struct arena *arena, const char *format, va_lis
     return arena_fails(arena) ? NULL : __real_ceduo_arena_vformat(arena, format, args);
 }
 
-__attribute__((format(printf, 2, 3))) static const char *format_in(struct arena *arena, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static const char *format_into(struct arena *arena, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -183,22 +184,23 @@ __attribute__((format(printf, 2, 3))) static const char *format_in(struct arena 
     return text;
 }
 
-/* Into an arena that has no page yet. */
+/* Format into an empty arena. */
 static bool format_text(void)
 {
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
-    const char *text = format_in(&arena, "%s[%d]", "forest", 7);
-    bool good = text;
-    assert_int_equal(arena.failed, !good);
-    if (good)
+    const char *text = format_into(&arena, "%s[%d]", "forest", 7);
+    bool done = text;
+    assert_int_equal(arena.failed, !done);
+    if (done)
         assert_string_equal(text, "forest[7]");
-    return good;
+    return done;
 }
 
 /* ---- reading ---- */
 
-/* What is read: a file of the folder, or (NULL) a text; with changes; wrong as it is or as it becomes, whole or with a word that not
- * all is said: faults of a file, a name of none, good changes of which one does not fit the rest, and a path of two places. */
+/* Input to read: a file of the folder, or NULL for a text; its changes. `wrong`: it is refused, with all problems or with a
+ * note that some are missing. The causes are faults of a file, an unknown name, valid changes with one that contradicts the
+ * rest, and a path that matches two belts. */
 static const struct reading {
     const char *name, *sets[6];
     bool wrong;
@@ -209,7 +211,7 @@ static const struct reading {
      false},
     {NULL, {NULL}, false},
     {"csv.yaml", {NULL}, false},
-    {"seen.yaml", {NULL}, false}, /* a scene, what was seen there, and what is not known of it */
+    {"observed.yaml", {NULL}, false}, /* with observations and uncertain inputs */
     {"upward.yaml", {NULL}, false},
     {"kinds.yaml", {NULL}, false},
     {"uncertain_scene.yaml", {NULL}, false},
@@ -222,8 +224,8 @@ static const struct reading *reading;
 
 static bool read_scene(void)
 {
-    static const char said[] = "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [5]\n"
-                               "slope: {vertices_m: [[0, 9], [9, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n";
+    static const char scene_text[] = "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [5]\n"
+                                     "slope: {vertices_m: [[0, 9], [9, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n";
     char path[256];
     in_folder(path, reading->name ? reading->name : "");
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
@@ -233,17 +235,17 @@ static bool read_scene(void)
     size_t n = 0;
     while (reading->sets[n])
         n++;
-    bool good = !reading->name
-                    ? ceduo_scene_load_text(&file, "scene", said, &problems)
+    bool done = !reading->name
+                    ? ceduo_scene_load_text(&file, "scene", scene_text, &problems)
                     : ceduo_scene_load(&file, strchr(reading->name, '.') ? path : reading->name, reading->sets, n, &problems);
     ceduo_problems_print(&problems);
-    assert_true(reading->wrong ? !good : good || problems.memory);
+    assert_true(reading->wrong ? !done : done || problems.memory);
     if (reading->wrong && !problems.memory)
         add_text(&problems.text);
     if (reading->wrong)
         return !problems.memory && !ceduo_memory_failed();
-    good = good && ceduo_inputs_collect(&file, &inputs);
-    if (!good)
+    done = done && ceduo_inputs_collect(&file, &inputs);
+    if (!done)
         return false;
     uint64_t key = ceduo_scene_key(&file.scene);
     add(&key, sizeof key);
@@ -260,18 +262,18 @@ static bool read_scene(void)
     return !ceduo_memory_failed();
 }
 
-/* By the library's own call. */
+/* Read by the library's public function. */
 static bool read_by_library(void)
 {
     char path[256];
     LOCAL_BY(ceduo_scene_file_release) struct ceduo_scene_file read;
-    in_folder(path, "seen.yaml");
-    bool good = is_done(ceduo_scene_read(path, NULL, &read));
+    in_folder(path, "observed.yaml");
+    bool done = is_done(ceduo_scene_read(path, NULL, &read));
     for (size_t i = 0; i < read.inputs_count; i++)
         add(read.inputs[i].path, strlen(read.inputs[i].path));
-    assert_int_equal(read.observations_count > 0, good);
-    assert_true(!good || read.messages[0] == '\0');
-    return good;
+    assert_int_equal(read.observations_count > 0, done);
+    assert_true(!done || read.messages[0] == '\0');
+    return done;
 }
 
 static bool read_survey(void)
@@ -280,41 +282,41 @@ static bool read_survey(void)
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     struct survey_file file;
     LOCAL_TEXT(yaml);
-    bool good =
+    bool done =
         ceduo_survey_read(&file, &arena, survey_path, NULL, &problems) && ceduo_survey_print_stand(&file, &yaml, &problems);
     ceduo_problems_print(&problems);
-    assert_true(good || problems.memory);
-    if (good)
+    assert_true(done || problems.memory);
+    if (done)
         add_text(&yaml);
-    return good && !ceduo_memory_failed();
+    return done && !ceduo_memory_failed();
 }
 
 /* ---- folders ---- */
 
-/* Through a link to a file that is not there yet. */
+/* Write through a link to a missing file. */
 static bool write_link(void)
 {
     unlink(linked_path);
-    bool good = ceduo_file_write(link_path, "text", 4);
-    assert_true(good || errno == ENOMEM);
-    assert_int_equal(access(linked_path, F_OK) == 0, good);
-    return good;
+    bool done = ceduo_file_write(link_path, "text", 4);
+    assert_true(done || errno == ENOMEM);
+    assert_int_equal(access(linked_path, F_OK) == 0, done);
+    return done;
 }
 
-/* Beside a file, whose place it then takes. */
-static bool write_over(void)
+/* Write a temporary file and replace the old one. */
+static bool replace_file(void)
 {
-    bool good = ceduo_file_write(survey_path, survey, sizeof survey - 1);
-    assert_true(good || errno == ENOMEM);
-    return good;
+    bool done = ceduo_file_write(survey_path, survey, sizeof survey - 1);
+    assert_true(done || errno == ENOMEM);
+    return done;
 }
 
-/* In the place of a file, which is asked for where it is. */
-static bool ask_to_write(void)
+/* Check for permission to replace the file. */
+static bool check_writable(void)
 {
-    bool good = ceduo_file_can_write(scene_path);
-    assert_true(good || errno == ENOMEM);
-    return good;
+    bool done = ceduo_file_can_write(scene_path);
+    assert_true(done || errno == ENOMEM);
+    return done;
 }
 
 static bool list_profiles(void)
@@ -322,13 +324,13 @@ static bool list_profiles(void)
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     size_t n = 0;
     const char *const *names = ceduo_file_list(&arena, "profiles", "stands", &n);
-    bool good = !arena.failed;
-    if (good) {
+    bool done = !arena.failed;
+    if (done) {
         assert_true(n > 4);
         for (size_t i = 0; i < n; i++)
             add(names[i], strlen(names[i]));
     }
-    return good;
+    return done;
 }
 
 TEST_WITH(scenes_are_read, set_up, tear_down)
@@ -340,10 +342,10 @@ TEST_WITH(scenes_are_read, set_up, tear_down)
     without_memory(read_survey);
 }
 
-TEST_WITH(folders, set_up, tear_down)
+TEST_WITH(files_are_written_and_listed, set_up, tear_down)
 {
     without_memory(list_profiles);
     without_memory(write_link);
-    without_memory(write_over);
-    without_memory(ask_to_write);
+    without_memory(replace_file);
+    without_memory(check_writable);
 }

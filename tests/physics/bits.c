@@ -6,9 +6,9 @@
 #include "ceduo/ceduo.h"
 #include "physics/paper_site.h"
 
-static void show(const char *what, const struct ceduo_distribution *d)
+static void show(const char *label, const struct ceduo_distribution *d)
 {
-    printf("%s %a %a %a %a %a %a\n", what, d->mean, d->se, d->p50, d->p95, d->p99, d->max);
+    printf("%s %a %a %a %a %a %a\n", label, d->mean, d->se, d->p50, d->p95, d->p99, d->max);
 }
 
 int main(int argc, char **argv)

@@ -92,9 +92,9 @@ static void check_flight(struct checker *w, const struct ceduo_trajectory_segmen
     double g = w->scene->scene.simulation.gravity;
     double v2 = (p->vx * p->vx + p->vz * p->vz) / 2, v2_end = (p->vx1 * p->vx1 + p->vz1 * p->vz1) / 2;
     double scale = v2 + g * (fabs(p->x) + fabs(p->z)), scale_end = v2_end + g * (fabs(p->x1) + fabs(p->z1));
-    double off = fabs((v2 + g * p->z) - (v2_end + g * p->z1));
-    if (off > 0)
-        w->energy_off = fmax(w->energy_off, off / fmax(scale, scale_end));
+    double error = fabs((v2 + g * p->z) - (v2_end + g * p->z1));
+    if (error > 0)
+        w->energy_off = fmax(w->energy_off, error / fmax(scale, scale_end));
     check_flight_depth(w, p);
     w->flights++;
 }
@@ -204,10 +204,10 @@ static bool is_smooth(const struct line_scene *s)
     return true;
 }
 
-static void expect_number(uint64_t scene, const char *what, double value, double max)
+static void expect_number(uint64_t scene, const char *label, double value, double max)
 {
     if (!(value <= max))
-        fail_msg("scene %ju: %s %g, more than %g", (uintmax_t)scene, what, value, max);
+        fail_msg("scene %ju: %s %g, more than %g", (uintmax_t)scene, label, value, max);
 }
 
 static void expect_crossing(uint64_t number, const struct ceduo_crossing *c)
@@ -225,22 +225,23 @@ static bool is_creeping(const struct checker *w)
 
 void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_tally *tally)
 {
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     struct ceduo_crossing crossing = {0};
     struct checker w = {.scene = s, .smooth = is_smooth(s)};
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
     assert_int_equal(ceduo_rock_from_means(&s->scene.rock, &w.rock), CEDUO_OK);
     if (s->scene.simulation.law == CEDUO_LAW_ARM) { /* the section is drawn */
-        assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11, NULL, &way, NULL), CEDUO_OK);
-        w.rock = way.rock;
+        assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11, NULL, &trajectory, NULL), CEDUO_OK);
+        w.rock = trajectory.rock;
     }
     w.k = s->scene.simulation.law == CEDUO_LAW_LUMPED ? 0 : w.rock.k;
     assert_int_equal(ceduo_trajectory_run(&s->scene, NULL, number % 11,
-                                          &(struct ceduo_trajectory_callbacks){.segment = check_segment, .context = &w}, &way,
-                                          &crossing),
+                                          &(struct ceduo_trajectory_callbacks){.segment = check_segment, .context = &w},
+                                          &trajectory, &crossing),
                      CEDUO_OK);
-    if (w.bad || !isfinite(way.x + way.z) || (w.pieces > 0 && (way.x != w.last.x1 || way.z != w.last.z1)))
-        fail_msg("scene %ju: not a number, or a gap in the way", (uintmax_t)number);
+    if (w.bad || !isfinite(trajectory.x + trajectory.z) ||
+        (w.pieces > 0 && (trajectory.x != w.last.x1 || trajectory.z != w.last.z1)))
+        fail_msg("scene %ju: not a number, or a gap in the trajectory", (uintmax_t)number);
     expect_number(number, "energy of a flight changes by", w.energy_off, ENERGY);
     expect_number(number, "a contact gains", w.gain, ENERGY);
     expect_number(number, "a contact of crsp gains", w.crsp_gain, ENERGY);
@@ -249,15 +250,15 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     expect_number(number, "metres below the ground:", w.under, fmax(UNDER, UNDER_SIZE * w.size));
     expect_crossing(number, &crossing);
     double end = s->x[s->scene.slope.vertices - 1];
-    if (way.end == CEDUO_LEFT_SLOPE && way.x != 0 && way.x != end)
-        fail_msg("scene %ju: left the slope at %g", (uintmax_t)number, way.x);
-    bool crack = way.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MAX / 2;
-    if (way.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack && !is_creeping(&w))
+    if (trajectory.end == CEDUO_LEFT_SLOPE && trajectory.x != 0 && trajectory.x != end)
+        fail_msg("scene %ju: left the slope at %g", (uintmax_t)number, trajectory.x);
+    bool crack = trajectory.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MAX / 2;
+    if (trajectory.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack && !is_creeping(&w))
         fail_msg("scene %ju: unfinished", (uintmax_t)number);
-    tally->last = way;
-    tally->ends[way.end]++;
+    tally->last = trajectory;
+    tally->ends[trajectory.end]++;
     tally->cracks += crack;
-    tally->contacts += way.contacts;
+    tally->contacts += trajectory.contacts;
     tally->pieces += w.pieces;
     tally->flights += w.flights;
     tally->impacts += w.impacts;

@@ -267,15 +267,15 @@ bool line_scene_lasts(const struct line_scene *s)
 
 void line_keep_piece(void *context, const struct ceduo_trajectory_segment *piece)
 {
-    struct line_way *to = context;
+    struct line_trace *to = context;
     if (to->count < LINE_PIECES_MAX)
         to->pieces[to->count++] = *piece;
 }
 
-enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to)
+enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_trace *to)
 {
     to->count = 0;
     return ceduo_trajectory_run(&s->scene, NULL, 0,
-                                &(struct ceduo_trajectory_callbacks){.segment = line_keep_piece, .context = to}, &to->way,
-                                &to->crossing);
+                                &(struct ceduo_trajectory_callbacks){.segment = line_keep_piece, .context = to},
+                                &to->trajectory, &to->crossing);
 }

@@ -61,13 +61,13 @@ void line_scene_arm(struct line_scene *s, uint64_t number);
 bool line_scene_lasts(const struct line_scene *s);
 
 /* Trajectory segments of rock 0, at most LINE_PIECES_MAX. */
-struct line_way {
-    struct ceduo_trajectory way;
+struct line_trace {
+    struct ceduo_trajectory trajectory;
     struct ceduo_crossing crossing;
     size_t count;
     struct ceduo_trajectory_segment pieces[LINE_PIECES_MAX];
 };
-void line_keep_piece(void *way, const struct ceduo_trajectory_segment *piece);
-enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to);
+void line_keep_piece(void *trace, const struct ceduo_trajectory_segment *piece);
+enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_trace *to);
 
 #endif

@@ -9,8 +9,8 @@
 
 #include "line_scene.h"
 
-#define PLACE  60 /* m, where rocks were seen to pass */
-#define FEWEST 5  /* values of a kind */
+#define PASSAGE_X  60 /* m */
+#define VALUES_MIN 5  /* per kind of observation */
 
 static const double bounds[QUARRY_VALUES_MAX][2] = {{0.25, 0.5}, {0.75, 0.95}, {0.05, 0.4}, {0.3, 0.7}};
 const char *const quarry_names[QUARRY_VALUES_MAX] = {"rn", "rt", "roughness_rad", "friction"};
@@ -57,37 +57,38 @@ static void make_site(struct quarry_site *s, enum ceduo_law law, const double *t
     make_inputs(s);
 }
 
-/* What is seen of the rocks: where they stop, and speed and height at a place. */
-static bool see(const struct quarry_site *s, const struct quarry_trial *trial, double **values, struct ceduo_observation *seen)
+/* Simulate rocks and set their stops, and their speeds and heights at PASSAGE_X. Return false if a kind has too few values. */
+static bool observe(const struct quarry_site *s, const struct quarry_trial *trial, double **values,
+                    struct ceduo_observation *observed)
 {
     static const enum ceduo_observed_kind kinds[] = {CEDUO_OBSERVED_STOPS, CEDUO_OBSERVED_SPEED, CEDUO_OBSERVED_HEIGHT};
     struct ceduo_observer *observer = NULL;
     bool good = true;
     for (size_t k = 0; k < trial->kinds; k++)
-        seen[k] =
-            (struct ceduo_observation){.kind = kinds[k], .name = "", .x = PLACE, .from = NAN, .to = NAN, .share_seen = NAN};
-    if (ceduo_observer_create(seen, trial->kinds, &observer) != CEDUO_OK)
+        observed[k] =
+            (struct ceduo_observation){.kind = kinds[k], .name = "", .x = PASSAGE_X, .from = NAN, .to = NAN, .share_seen = NAN};
+    if (ceduo_observer_create(observed, trial->kinds, &observer) != CEDUO_OK)
         return false;
     for (size_t k = 0; k < trial->kinds && good; k++) {
         size_t n, m = 0;
-        good = ceduo_observer_values(observer, &s->scene, k, trial->seen, &values[k], &n) == CEDUO_OK;
+        good = ceduo_observer_values(observer, &s->scene, k, trial->observed, &values[k], &n) == CEDUO_OK;
         for (size_t i = 0; good && i < n; i++)
             if (!isnan(values[k][i]))
                 values[k][m++] = values[k][i];
         gsl_sort(values[k], 1, m);
-        seen[k].values = values[k];
-        seen[k].n = m;
-        seen[k].released_count = k == 0 ? trial->seen : 0;
-        good = good && m >= FEWEST;
+        observed[k].values = values[k];
+        observed[k].n = m;
+        observed[k].released_count = k == 0 ? trial->observed : 0;
+        good = good && m >= VALUES_MIN;
     }
     ceduo_observer_free(observer);
     return good;
 }
 
-static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, const struct quarry_trial *trial,
+static bool fit(struct quarry_site *s, const struct ceduo_observation *observed, const struct quarry_trial *trial,
                 struct ceduo_calibration *answer)
 {
-    struct ceduo_calibration_scene scene = {&s->scene, s->inputs, trial->kinds, seen};
+    struct ceduo_calibration_scene scene = {&s->scene, s->inputs, trial->kinds, observed};
     struct ceduo_calibration_def def = {.scenes_count = 1,
                                         .scenes = &scene,
                                         .parameters_count = trial->values,
@@ -98,46 +99,46 @@ static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, con
     return ceduo_calibrate(&def, answer) == CEDUO_OK;
 }
 
-/* Draws the truth; what is seen on it is in `values` and `seen`. */
-static bool make(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct quarry_site *fitted, double **values,
-                 struct ceduo_observation *seen)
+/* Draw the truth and observe rocks on it. */
+static bool make_trial(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct quarry_site *fitted,
+                       double **values, struct ceduo_observation *observed)
 {
-    struct quarry_site made;
+    struct quarry_site true_site;
     struct line_random random = {1000 * trial->number + 77 * trial->made_by};
     for (size_t i = 0; i < QUARRY_VALUES_MAX; i++)
         truth[i] = i < trial->values || i < 3 ? line_uniform(&random, bounds[i][0], bounds[i][1]) : 0.5;
-    make_site(&made, trial->made_by, truth, 100000 + trial->number);
+    make_site(&true_site, trial->made_by, truth, 100000 + trial->number);
     make_site(fitted, CEDUO_LAW_LUMPED, truth, 1 + trial->number);
-    return see(&made, trial, values, seen);
+    return observe(&true_site, trial, values, observed);
 }
 
-static void forget(double **values)
+static void free_values(double **values)
 {
     for (size_t k = 0; k < QUARRY_KINDS; k++)
         free(values[k]);
 }
 
-bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct ceduo_calibration *answer)
+bool quarry_fit(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct ceduo_calibration *answer)
 {
     struct quarry_site site;
-    struct ceduo_observation seen[QUARRY_KINDS];
+    struct ceduo_observation observed[QUARRY_KINDS];
     double *values[QUARRY_KINDS] = {0};
-    bool good = make(trial, truth, &site, values, seen) && fit(&site, seen, trial, answer);
-    forget(values);
+    bool good = make_trial(trial, truth, &site, values, observed) && fit(&site, observed, trial, answer);
+    free_values(values);
     return good;
 }
 
-bool quarry_look(const struct quarry_trial *trial, double p[QUARRY_KINDS])
+bool quarry_compare(const struct quarry_trial *trial, double p[QUARRY_KINDS])
 {
     struct quarry_site site;
-    struct ceduo_observation seen[QUARRY_KINDS];
+    struct ceduo_observation observed[QUARRY_KINDS];
     struct ceduo_predicted found[QUARRY_KINDS];
     double *values[QUARRY_KINDS] = {0}, truth[QUARRY_VALUES_MAX];
-    bool good = make(trial, truth, &site, values, seen);
-    struct ceduo_calibration_scene scene = {&site.scene, site.inputs, trial->kinds, seen};
+    bool good = make_trial(trial, truth, &site, values, observed);
+    struct ceduo_calibration_scene scene = {&site.scene, site.inputs, trial->kinds, observed};
     good = good && ceduo_compare_with_observations(&scene, trial->rocks, NULL, found) == CEDUO_OK;
     for (size_t k = 0; good && k < trial->kinds; k++)
         p[k] = found[k].p_value;
-    forget(values);
+    free_values(values);
     return good;
 }

@@ -26,19 +26,19 @@ struct quarry_site {
 
 /* Settings of one trial of a site. */
 struct quarry_trial {
-    size_t number;          /* seed of the site's truth and rocks */
-    size_t values, kinds;   /* fitted: the first of quarry_names; observed: stops alone, with speeds, or also with heights */
-    enum ceduo_law made_by; /* law of the observations; the fit uses lumped */
-    uint64_t seen, rocks;   /* rocks released and observed; rocks per evaluation */
-    size_t steps_max;       /* per chain; 0: default */
-    unsigned threads;       /* 0: one */
+    size_t number;            /* seed of the site's truth and rocks */
+    size_t values, kinds;     /* fitted: the first of quarry_names; observed: stops alone, with speeds, or also with heights */
+    enum ceduo_law made_by;   /* law of the observations; the fit uses lumped */
+    uint64_t observed, rocks; /* rocks released and observed; rocks per evaluation */
+    size_t steps_max;         /* per chain; 0: default */
+    unsigned threads;         /* 0: one */
 };
 
 /* Return false if too few rocks pass or stop; then there is nothing to free. `truth`: all drawn values; those not fitted are
  * fixed. */
-bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct ceduo_calibration *answer);
+bool quarry_fit(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MAX], struct ceduo_calibration *answer);
 
 /* Compute p of each kind on the true ground without a fit. Returns false as above. */
-bool quarry_look(const struct quarry_trial *trial, double p[QUARRY_KINDS]);
+bool quarry_compare(const struct quarry_trial *trial, double p[QUARRY_KINDS]);
 
 #endif

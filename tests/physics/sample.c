@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define CHANCE 1e-4 /* probability that a correct program fails a test of fit; four standard errors are 6e-5 */
+#define FALSE_ALARM 1e-4 /* probability that a correct program fails a test of fit; four standard errors are 6e-5 */
 
 void spread_add(struct spread *s, double value)
 {
@@ -59,67 +59,67 @@ const char *named(const char *format, ...)
     return text;
 }
 
-void expect_close(const char *what, double value, double se, double expected, double expected_se)
+void expect_close(const char *label, double value, double se, double expected, double expected_se)
 {
-    double both = hypot(se, expected_se);
-    print_message("# %s: %.6g ± %.2g, expected %.6g (%+.1f se)\n", what, value, se, expected, (value - expected) / both);
-    if (!(fabs(value - expected) <= 4 * both))
-        fail_msg("%s: %.8g ± %.3g is not %.8g", what, value, se, expected);
+    double total_se = hypot(se, expected_se);
+    print_message("# %s: %.6g ± %.2g, expected %.6g (%+.1f se)\n", label, value, se, expected, (value - expected) / total_se);
+    if (!(fabs(value - expected) <= 4 * total_se))
+        fail_msg("%s: %.8g ± %.3g is not %.8g", label, value, se, expected);
 }
 
-void expect_mean(const char *what, const struct spread *s, double expected)
+void expect_mean(const char *label, const struct spread *s, double expected)
 {
-    expect_close(what, spread_mean(s), spread_se(s), expected, 0);
+    expect_close(label, spread_mean(s), spread_se(s), expected, 0);
 }
 
-void expect_variance(const char *what, const struct spread *s, double expected)
+void expect_variance(const char *label, const struct spread *s, double expected)
 {
-    expect_close(what, spread_variance(s), spread_variance_se(s), expected, 0);
+    expect_close(label, spread_variance(s), spread_variance_se(s), expected, 0);
 }
 
-void expect_share(const char *what, uint64_t hits, uint64_t n, double expected)
+void expect_share(const char *label, uint64_t hits, uint64_t n, double expected)
 {
-    expect_close(what, (double)hits / (double)n, sqrt(expected * (1 - expected) / (double)n), expected, 0);
+    expect_close(label, (double)hits / (double)n, sqrt(expected * (1 - expected) / (double)n), expected, 0);
 }
 
-void expect_exact(const char *what, double value, double expected, double relative)
+void expect_exact(const char *label, double value, double expected, double relative)
 {
     if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%s: %.17g is not %.17g", what, value, expected);
+        fail_msg("%s: %.17g is not %.17g", label, value, expected);
 }
 
-void expect_chi_square(const char *what, double chi2, double freedom)
+void expect_chi_square(const char *label, double chi2, double freedom)
 {
     double p = gsl_cdf_chisq_Q(chi2, freedom);
-    print_message("# %s: chi-square %.1f on %.0f, p = %.3g\n", what, chi2, freedom, p);
-    if (!(p > CHANCE))
-        fail_msg("%s: chi-square %.1f on %.0f, p = %.2g", what, chi2, freedom, p);
+    print_message("# %s: chi-square %.1f on %.0f, p = %.3g\n", label, chi2, freedom, p);
+    if (!(p > FALSE_ALARM))
+        fail_msg("%s: chi-square %.1f on %.0f, p = %.2g", label, chi2, freedom, p);
 }
 
-void expect_ks(const char *what, double d, double size)
+void expect_ks(const char *label, double d, double size)
 {
-    double max = sqrt(-log(CHANCE / 2) / 2);
-    print_message("# %s: D = %.2e, D sqrt(n) = %.3f of at most %.3f\n", what, d, d * sqrt(size), max);
+    double max = sqrt(-log(FALSE_ALARM / 2) / 2);
+    print_message("# %s: D = %.2e, D sqrt(n) = %.3f of at most %.3f\n", label, d, d * sqrt(size), max);
     if (!(d * sqrt(size) < max))
-        fail_msg("%s: D = %.3g of %.0f", what, d, size);
+        fail_msg("%s: D = %.3g of %.0f", label, d, size);
 }
 
-void expect_law(const char *what, double *values, size_t n, double (*cdf)(double x, const void *of), const void *of)
+void expect_law(const char *label, double *values, size_t n, double (*cdf)(double x, const void *context), const void *context)
 {
     qsort(values, n, sizeof *values, by_value);
     double d = 0;
     for (size_t i = 0; i < n; i++) {
-        double f = cdf(values[i], of);
+        double f = cdf(values[i], context);
         d = fmax(d, fmax(f - (double)i / (double)n, (double)(i + 1) / (double)n - f));
     }
-    expect_ks(what, d, (double)n);
+    expect_ks(label, d, (double)n);
 }
 
 void sample_add(struct sample *s, double value)
 {
-    if (s->n == s->room) {
-        s->room = s->room > 0 ? 2 * s->room : 1024;
-        s->values = realloc(s->values, s->room * sizeof *s->values);
+    if (s->n == s->capacity) {
+        s->capacity = s->capacity > 0 ? 2 * s->capacity : 1024;
+        s->values = realloc(s->values, s->capacity * sizeof *s->values);
         assert_non_null(s->values);
     }
     s->values[s->n++] = value;
@@ -136,7 +136,7 @@ static double sample_worth(const struct sample *s)
     return s->squares > 0 ? (double)s->n * (double)s->n / s->squares : (double)s->n;
 }
 
-void expect_same_law(const char *what, struct sample *a, struct sample *b)
+void expect_same_law(const char *label, struct sample *a, struct sample *b)
 {
     qsort(a->values, a->n, sizeof *a->values, by_value);
     qsort(b->values, b->n, sizeof *b->values, by_value);
@@ -150,29 +150,29 @@ void expect_same_law(const char *what, struct sample *a, struct sample *b)
         d = fmax(d, fabs((double)i / (double)a->n - (double)j / (double)b->n));
     }
     double p = sample_worth(a), q = sample_worth(b);
-    expect_ks(what, d, p * q / (p + q));
+    expect_ks(label, d, p * q / (p + q));
 }
 
-void expect_poisson(const char *what, const uint64_t count[COUNTS_MAX], double mean)
+void expect_poisson(const char *label, const uint64_t count[COUNTS_MAX], double mean)
 {
-    double n = 0, chi2 = 0, seen = 0, expected = 0, left = 1;
+    double n = 0, chi2 = 0, observed = 0, expected = 0, remaining = 1;
     int cells = 0;
     for (int k = 0; k < COUNTS_MAX; k++)
         n += (double)count[k];
     for (unsigned k = 0; k < COUNTS_MAX; k++) {
         double p = gsl_ran_poisson_pdf(k, mean);
-        seen += (double)count[k];
+        observed += (double)count[k];
         expected += n * p;
-        left -= p;
-        bool last = n * left < 10; /* the last cell includes the tail */
+        remaining -= p;
+        bool last = n * remaining < 10; /* the last cell includes the tail */
         if (last)
-            for (expected += n * left; ++k < COUNTS_MAX;)
-                seen += (double)count[k];
+            for (expected += n * remaining; ++k < COUNTS_MAX;)
+                observed += (double)count[k];
         if (expected < 10)
             continue;
-        chi2 += (seen - expected) * (seen - expected) / expected;
+        chi2 += (observed - expected) * (observed - expected) / expected;
         cells++;
-        seen = expected = 0;
+        observed = expected = 0;
     }
-    expect_chi_square(what, chi2, cells - 1);
+    expect_chi_square(label, chi2, cells - 1);
 }

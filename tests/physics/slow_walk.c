@@ -15,14 +15,14 @@ enum todo { TODO_CONTACT, TODO_FLIGHT, TODO_ROLL, TODO_STAND, TODO_NOTHING };
 
 /* The next contact of a flight with the ground. */
 struct touch {
-    const struct slow_segment *at; /* NULL: it leaves the profile */
+    const struct slow_segment *segment; /* NULL: it leaves the profile */
     slow_real time, x;
 };
 
 struct walker {
     const struct slow_def *def;
-    struct slow_way *way;
-    const struct slow_segment *at; /* current segment, or the one under the release */
+    struct slow_trajectory *trajectory;
+    const struct slow_segment *segment; /* current segment, or the one under the release */
     bool on_ground;
     bool rolled; /* true if it reached this contact rolling */
     slow_real x, z, vx, vz, spin;
@@ -154,7 +154,7 @@ static void set_velocity(struct walker *w, struct slow_turn a, slow_real tangent
 
 static enum todo end(struct walker *w, enum slow_end how)
 {
-    w->way->end = how;
+    w->trajectory->end = how;
     return TODO_NOTHING;
 }
 
@@ -163,12 +163,12 @@ static enum todo end(struct walker *w, enum slow_end how)
 /* True if the control lies in (x, to] and has not been crossed. A trajectory back has to < x and crosses nothing. */
 static bool crosses(const struct walker *w, slow_real to)
 {
-    return !w->way->crossing.reached && w->def->control > w->x && w->def->control <= to;
+    return !w->trajectory->crossing.reached && w->def->control > w->x && w->def->control <= to;
 }
 
 static void record(struct walker *w, slow_real vx, slow_real vz, slow_real spin, slow_real height)
 {
-    w->way->crossing = (struct slow_crossing){true, (double)vx, (double)vz, (double)spin, (double)height};
+    w->trajectory->crossing = (struct slow_crossing){true, (double)vx, (double)vz, (double)spin, (double)height};
 }
 
 static void record_flight(struct walker *w, slow_real to)
@@ -183,7 +183,7 @@ static void record_flight(struct walker *w, slow_real to)
  * segment is steeper than its friction. */
 static slow_real roll_gain(const struct walker *w, slow_real dx)
 {
-    const slow_real net = (dx > 0 ? -w->at->slope : w->at->slope) - w->at->friction;
+    const slow_real net = (dx > 0 ? -w->segment->slope : w->segment->slope) - w->segment->friction;
     return 2 * (slow_real)w->def->gravity * net * fabs(dx) / (1 + inertia(w->def));
 }
 
@@ -193,7 +193,7 @@ static void record_roll(struct walker *w, const struct roll *roll, slow_real to)
         return;
     const slow_real u2 = roll->u2 + roll_gain(w, w->def->control - w->x);
     const slow_real u = sqrt(not_below_0(u2)); /* rounding if the rock stops right at the control */
-    record(w, u * w->at->turn.cosine, u * w->at->turn.sine, rolling_spin(w->def, u), 0);
+    record(w, u * w->segment->turn.cosine, u * w->segment->turn.sine, rolling_spin(w->def, u), 0);
 }
 
 /* ---- flight ---- */
@@ -221,7 +221,7 @@ static bool hits_segment(const struct walker *w, const struct slow_segment *s, i
 {
     const slow_real g = w->def->gravity, b = w->vz - s->slope * w->vx;
     const slow_real t_out = compute_time(w, exit_x(s, direction));
-    const bool starts = w->on_ground && s == w->at;
+    const bool starts = w->on_ground && s == w->segment;
     const slow_real height =
         starts ? t_out * (b - g * t_out / 2) : w->z + t_out * (w->vz - g * t_out / 2) - exit_z(s, direction);
     if (height >= 0)
@@ -235,13 +235,13 @@ static struct touch next_touch(const struct walker *w)
 {
     const int direction = find_direction(w->vx);
     if (direction == 0) { /* vertical flight */
-        const slow_real c = w->on_ground ? 0 : not_below_0(w->z - ground(w->at, w->x));
-        return (struct touch){w->at, not_below_0(later_root(c, w->vz, (slow_real)w->def->gravity)), w->x};
+        const slow_real c = w->on_ground ? 0 : not_below_0(w->z - ground(w->segment, w->x));
+        return (struct touch){w->segment, not_below_0(later_root(c, w->vz, (slow_real)w->def->gravity)), w->x};
     }
-    struct touch best = {.at = NULL};
-    for (const struct slow_segment *s = w->at;; s += direction) {
+    struct touch best = {.segment = NULL};
+    for (const struct slow_segment *s = w->segment;; s += direction) {
         slow_real t = 0;
-        if (hits_segment(w, s, direction, &t) && (!best.at || t < best.time))
+        if (hits_segment(w, s, direction, &t) && (!best.segment || t < best.time))
             best = (struct touch){s, t, clamp(w->x + w->vx * t, s->x0, s->x1)};
         if (is_last(w->def, s, direction))
             return best;
@@ -251,7 +251,7 @@ static struct touch next_touch(const struct walker *w)
 static enum todo fly_to_contact(struct walker *w)
 {
     const slow_real g = w->def->gravity;
-    if (!w->touch.at) {
+    if (!w->touch.segment) {
         const slow_real x = w->vx > 0 ? w->def->segments[w->def->count - 1].x1 : w->def->segments[0].x0, t = compute_time(w, x);
         record_flight(w, x);
         w->x = x;
@@ -260,8 +260,8 @@ static enum todo fly_to_contact(struct walker *w)
     }
     record_flight(w, w->touch.x);
     w->x = w->touch.x;
-    w->at = w->touch.at;
-    w->z = ground(w->at, w->x);
+    w->segment = w->touch.segment;
+    w->z = ground(w->segment, w->x);
     w->vz -= g * w->touch.time;
     w->on_ground = true;
     w->rolled = false;
@@ -273,10 +273,12 @@ static enum todo fly_to_contact(struct walker *w)
 /* Return the facet that is hit. */
 static struct slow_turn facet(const struct walker *w)
 {
-    const slow_real u = w->def->uniform(w->def->context, w->way->contacts), max = w->at->theta_max;
-    const slow_real angle = w->def->facets == SLOW_BOTH ? max * (2 * u - 1) : along(w, w->at->turn) >= 0 ? max * u : -max * u;
-    const struct slow_turn turned = facet_turn(w->at->angle + angle);
-    return outward(w, turned) > 0 ? w->at->turn : turned; /* a rock cannot hit a face from which it moves away */
+    const slow_real u = w->def->uniform(w->def->context, w->trajectory->contacts), max = w->segment->theta_max;
+    const slow_real angle = w->def->facets == SLOW_BOTH       ? max * (2 * u - 1)
+                            : along(w, w->segment->turn) >= 0 ? max * u
+                                                              : -max * u;
+    const struct slow_turn turned = facet_turn(w->segment->angle + angle);
+    return outward(w, turned) > 0 ? w->segment->turn : turned; /* a rock cannot hit a face from which it moves away */
 }
 
 /* CRSP's scaling of the tangential energy with the normal speed; its limit if Rn = 0. */
@@ -290,7 +292,7 @@ static slow_real scaling(slow_real vn, slow_real rn, slow_real rt)
 /* Reduce the energy along the facet and of rotation by f and SF; the rock leaves without slip. */
 static slow_real crsp_tangential(const struct walker *w, slow_real vn, slow_real vt)
 {
-    const slow_real rn = w->at->rn, rt = w->at->rt, k = inertia(w->def), rim = w->spin * (slow_real)w->def->radius;
+    const slow_real rn = w->segment->rn, rt = w->segment->rt, k = inertia(w->def), rim = w->spin * (slow_real)w->def->radius;
     const slow_real f = rt + (1 - rt) / (square((vt - rim) / friction_speed) + (slow_real)1.2L);
     const slow_real speed = sqrt((k * square(rim) + square(vt)) * f * scaling(vn, rn, rt) / (1 + k));
     return vt < 0 || (vt == 0 && w->spin < 0) ? -speed : speed;
@@ -325,13 +327,13 @@ static void apply_law(struct walker *w, struct slow_turn a)
     const struct slow_def *def = w->def;
     const bool crsp = def->law == SLOW_CRSP;
     const slow_real vn = not_below_0(-outward(w, a)), vt = along(w, a);
-    slow_real rebound = w->at->rn * vn;
+    slow_real rebound = w->segment->rn * vn;
     if (crsp || def->scale_rn)
         rebound /= 1 + square(vn / normal_speed);
-    const slow_real speed = crsp ? crsp_tangential(w, vn, vt) : w->at->rt * vt;
+    const slow_real speed = crsp ? crsp_tangential(w, vn, vt) : w->segment->rt * vt;
     struct tangential out = {speed, crsp ? speed : 0};
     if (def->friction_bound)
-        out = with_friction_bound(w, vt, out, w->at->friction * (vn + rebound));
+        out = with_friction_bound(w, vt, out, w->segment->friction * (vn + rebound));
     set_velocity(w, a, out.speed, rebound);
     w->spin = rolling_spin(def, out.rim);
 }
@@ -339,9 +341,9 @@ static void apply_law(struct walker *w, struct slow_turn a)
 /* A flight that stays within one radius, along the ground and above the segment, counts as rolling. */
 static enum todo roll_or_fly(struct walker *w)
 {
-    const slow_real radius = w->def->radius, cosine = w->at->turn.cosine;
+    const slow_real radius = w->def->radius, cosine = w->segment->turn.cosine;
     w->touch = next_touch(w);
-    return w->touch.at && square(outward(w, w->at->turn)) / (2 * (slow_real)w->def->gravity * cosine) < radius &&
+    return w->touch.segment && square(outward(w, w->segment->turn)) / (2 * (slow_real)w->def->gravity * cosine) < radius &&
                    ground_length(w->def, w->x, w->touch.x) < radius
                ? TODO_ROLL
                : TODO_FLIGHT;
@@ -350,19 +352,19 @@ static enum todo roll_or_fly(struct walker *w)
 static enum todo contact(struct walker *w)
 {
     const struct slow_def *def = w->def;
-    if (w->way->contacts >= def->max_contacts)
+    if (w->trajectory->contacts >= def->max_contacts)
         return end(w, SLOW_UNFINISHED);
     const struct walker before = *w;
     apply_law(w, facet(w));
-    if (outward(w, w->at->turn) < 0) /* a facet turned away from the segment may send the rock into the ground */
-        set_velocity(w, w->at->turn, along(w, w->at->turn), 0);
+    if (outward(w, w->segment->turn) < 0) /* a facet turned away from the segment may send the rock into the ground */
+        set_velocity(w, w->segment->turn, along(w, w->segment->turn), 0);
     const enum todo next = roll_or_fly(w);
     if (def->friction_bound && w->rolled && next == TODO_ROLL) { /* it continues rolling: there was no impact */
         w->vx = before.vx;
         w->vz = before.vz;
         w->spin = before.spin;
     }
-    w->way->contacts++;
+    w->trajectory->contacts++;
     if (def->on_contact)
         def->on_contact(def->context, (double)w->x, (double)w->z, (double)w->vx, (double)w->vz, (double)w->spin);
     return next;
@@ -374,22 +376,22 @@ static enum todo contact(struct walker *w)
 static struct roll start_roll(const struct walker *w)
 {
     const slow_real k = inertia(w->def), radius = w->def->radius;
-    const slow_real u = (along(w, w->at->turn) + k * w->spin * radius) / (1 + k);
+    const slow_real u = (along(w, w->segment->turn) + k * w->spin * radius) / (1 + k);
     const int direction = find_direction(u);
-    return (struct roll){u * u, radius, direction != 0 ? direction : downhill(w->at)};
+    return (struct roll){u * u, radius, direction != 0 ? direction : downhill(w->segment)};
 }
 
 static void set_rolling_velocity(struct walker *w, const struct roll *roll)
 {
     const slow_real u = roll->direction > 0 ? sqrt(roll->u2) : -sqrt(roll->u2);
-    set_velocity(w, w->at->turn, u, 0);
+    set_velocity(w, w->segment->turn, u, 0);
     w->spin = rolling_spin(w->def, u);
 }
 
 static void move_on_segment(struct walker *w, slow_real x)
 {
     w->x = x;
-    w->z = ground(w->at, x);
+    w->z = ground(w->segment, x);
 }
 
 /* Pass a vertex at the end of a step: leave the profile, lose the part of u into the ground, follow the ground over the edge,
@@ -397,11 +399,11 @@ static void move_on_segment(struct walker *w, slow_real x)
 static enum todo pass_vertex(struct walker *w, struct roll *roll)
 {
     set_rolling_velocity(w, roll);
-    if (is_last(w->def, w->at, roll->direction))
+    if (is_last(w->def, w->segment, roll->direction))
         return end(w, SLOW_LEFT);
-    const struct slow_segment *ahead = w->at + roll->direction;
-    const slow_real turn = (ahead->angle - w->at->angle) * roll->direction; /* positive at a concave vertex */
-    w->at = ahead;
+    const struct slow_segment *ahead = w->segment + roll->direction;
+    const slow_real turn = (ahead->angle - w->segment->angle) * roll->direction; /* positive at a concave vertex */
+    w->segment = ahead;
     if (turn < 0)
         return roll_or_fly(w);
     roll->u2 *= square(not_below_0(cos(turn)));
@@ -412,9 +414,9 @@ static enum todo pass_vertex(struct walker *w, struct roll *roll)
  * stop. */
 static enum todo roll_piece(struct walker *w, struct roll *roll)
 {
-    const slow_real x_vertex = exit_x(w->at, roll->direction), length = fabs(x_vertex - w->x) / w->at->turn.cosine;
+    const slow_real x_vertex = exit_x(w->segment, roll->direction), length = fabs(x_vertex - w->x) / w->segment->turn.cosine;
     const bool ends = roll->left <= length;
-    const slow_real to = roll->left < length ? w->x + roll->direction * roll->left * w->at->turn.cosine : x_vertex;
+    const slow_real to = roll->left < length ? w->x + roll->direction * roll->left * w->segment->turn.cosine : x_vertex;
     const slow_real u2_end = roll->u2 + roll_gain(w, to - w->x);
     if (to != w->x && !(u2_end > 0)) { /* u^2 is linear in x: interpolate its zero */
         const slow_real x = w->x + (to - w->x) * (roll->u2 > 0 ? roll->u2 / (roll->u2 - u2_end) : 0);
@@ -467,9 +469,9 @@ static bool rises_to_height(const struct slow_def *def, const struct slow_segmen
 static bool stands_in_pit(const struct walker *w)
 {
     const struct slow_def *def = w->def;
-    const int direction = downhill(w->at);
+    const int direction = downhill(w->segment);
     const slow_real radius = def->radius;
-    const struct slow_segment *beyond = w->at;
+    const struct slow_segment *beyond = w->segment;
     if (!follow(def, &beyond, direction, true))
         return false;
     const struct slow_segment *before = beyond - direction;
@@ -482,16 +484,16 @@ static bool stands_in_pit(const struct walker *w)
 
 static bool is_at_rest(const struct walker *w)
 {
-    return !steeper_than_friction(w->at) || stands_in_pit(w);
+    return !steeper_than_friction(w->segment) || stands_in_pit(w);
 }
 
 static enum todo stand(struct walker *w)
 {
     if (is_at_rest(w))
         return end(w, SLOW_REST);
-    if (w->way->contacts >= w->def->max_contacts)
+    if (w->trajectory->contacts >= w->def->max_contacts)
         return end(w, SLOW_UNFINISHED);
-    w->way->contacts++; /* the new roll from rest, so that no trajectory continues uncounted */
+    w->trajectory->contacts++; /* the new roll from rest, so that no trajectory continues uncounted */
     return TODO_ROLL;
 }
 
@@ -512,28 +514,28 @@ static enum todo roll(struct walker *w)
 
 static enum todo release(struct walker *w)
 {
-    w->at = find_segment(w->def, w->x);
-    const slow_real under = ground(w->at, w->x);
+    w->segment = find_segment(w->def, w->x);
+    const slow_real under = ground(w->segment, w->x);
     w->on_ground = !(w->z > under) || (double)w->z == (double)under; /* the caller's heights are doubles */
     if (w->on_ground)
         w->z = under;
-    if (w->on_ground && outward(w, w->at->turn) <= 0)
+    if (w->on_ground && outward(w, w->segment->turn) <= 0)
         return TODO_CONTACT;
     w->touch = next_touch(w);
     return TODO_FLIGHT;
 }
 
-struct slow_way slow_walk(const struct slow_def *def)
+struct slow_trajectory slow_walk(const struct slow_def *def)
 {
     static enum todo (*const steps[])(struct walker *) = {
         [TODO_CONTACT] = contact, [TODO_FLIGHT] = fly_to_contact, [TODO_ROLL] = roll, [TODO_STAND] = stand};
-    struct slow_way way = {.contacts = 0};
-    struct walker w = {.def = def, .way = &way, .x = def->x0, .z = def->z0, .vx = def->vx0, .vz = def->vz0};
+    struct slow_trajectory trajectory = {.contacts = 0};
+    struct walker w = {.def = def, .trajectory = &trajectory, .x = def->x0, .z = def->z0, .vx = def->vx0, .vz = def->vz0};
     w.spin = def->law == SLOW_CRSP ? (slow_real)def->spin0 : 0;
     enum todo todo = release(&w);
     while (todo != TODO_NOTHING)
         todo = steps[todo](&w);
-    way.x = (double)w.x;
-    way.z = (double)w.z;
-    return way;
+    trajectory.x = (double)w.x;
+    trajectory.z = (double)w.z;
+    return trajectory;
 }

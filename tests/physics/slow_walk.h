@@ -55,7 +55,7 @@ struct slow_def {
 };
 
 /* End of the trajectory. */
-struct slow_way {
+struct slow_trajectory {
     enum slow_end end;
     double x, z;
     uint64_t contacts;
@@ -65,6 +65,6 @@ struct slow_way {
 /* A segment between two points, without its ground. */
 struct slow_segment slow_segment_between(double x0, double z0, double x1, double z1);
 
-struct slow_way slow_walk(const struct slow_def *def);
+struct slow_trajectory slow_walk(const struct slow_def *def);
 
 #endif

@@ -96,7 +96,7 @@ void sweep_end(void)
 void sweep_watched(uint64_t rock, const struct ceduo_trajectory_callbacks *watch)
 {
     sweep.count = 0;
-    assert_int_equal(ceduo_tracer_run(sweep.follower, rock, watch, &sweep.way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_tracer_run(sweep.follower, rock, watch, &sweep.trajectory, NULL), CEDUO_OK);
 }
 
 void sweep_rock(uint64_t rock)
@@ -144,9 +144,9 @@ struct met meet(uint64_t rocks, double metres)
     struct met m = {0};
     for (SWEEP(rock, rocks)) {
         size_t both = count_different(false);
-        if (sweep.way.stems_hit != sweep.count || sweep.way.stools_met != both || sweep.way.end != CEDUO_LEFT_SLOPE ||
-            sweep.way.stems_drawn < sweep.count)
-            fail_msg("rock %ju: its way's counts are not those of the stems on it", (uintmax_t)rock);
+        if (sweep.trajectory.stems_hit != sweep.count || sweep.trajectory.stools_met != both ||
+            sweep.trajectory.end != CEDUO_LEFT_SLOPE || sweep.trajectory.stems_drawn < sweep.count)
+            fail_msg("rock %ju: counts of the trajectory differ from its stems", (uintmax_t)rock);
         spread_add(&m.stems, (double)sweep.count / metres);
         spread_add(&m.both, (double)both / metres);
         double stools = (double)count_different(true) / metres;

@@ -42,7 +42,7 @@ double per_metre(double per_ha, double width);
 #define STEMS_MAX 4096
 struct sweep {
     struct ceduo_tracer *follower;
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     size_t count;
     struct ceduo_stem_encounter stems[STEMS_MAX];
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where rocks stopped, seen and simulated: the distance of Kolmogorov and Smirnov. */
+/* Kolmogorov-Smirnov distance between observed and simulated stops. */
 #ifndef STOPS_H
 #define STOPS_H
 
@@ -10,17 +10,18 @@
 #include "bench/measure.h"
 #include "ceduo/observe.h"
 
-/* The 95 % point for n values (Stephens 1974). */
-static inline double stops_band(size_t n)
+/* Return the 95 % point of the distance for n values (Stephens 1974). */
+static inline double stops_critical_distance(size_t n)
 {
     double root = sqrt((double)n);
     return 1.358 / (root + 0.12 + 0.11 / root);
 }
 
-/* A rock without a stop lies beyond all. Sorts `simulated` and sets the mean of those that stopped. NaN without memory. */
-static inline double stops_distance(const struct ceduo_observation *seen, double *simulated, size_t n, double *mean)
+/* Sort `simulated` and set the mean of the rocks that stopped; a rock that did not stop lies beyond all others. Return the
+ * distance, NaN if memory fails. */
+static inline double stops_distance(const struct ceduo_observation *observed, double *simulated, size_t n, double *mean)
 {
-    double sum = 0, stopped = 0, most = 0;
+    double sum = 0, stopped = 0, distance = 0;
     for (size_t i = 0; i < n; i++)
         if (isnan(simulated[i])) {
             simulated[i] = INFINITY;
@@ -29,21 +30,21 @@ static inline double stops_distance(const struct ceduo_observation *seen, double
             stopped++;
         }
     *mean = sum / stopped;
-    double *values = malloc(seen->n * sizeof *values);
+    double *values = malloc(observed->n * sizeof *values);
     if (!values)
         return NAN;
-    memcpy(values, seen->values, seen->n * sizeof *values);
+    memcpy(values, observed->values, observed->n * sizeof *values);
     qsort(simulated, n, sizeof *simulated, by_value);
-    qsort(values, seen->n, sizeof *values, by_value);
+    qsort(values, observed->n, sizeof *values, by_value);
     size_t below = 0;
-    for (size_t i = 0; i < seen->n; i++) {
+    for (size_t i = 0; i < observed->n; i++) {
         while (below < n && simulated[below] < values[i])
             below++;
-        double share = (double)below / (double)n, of = (double)seen->released_count;
-        most = fmax(most, fmax(fabs(share - (double)i / of), fabs(share - (double)(i + 1) / of)));
+        double share = (double)below / (double)n, released = (double)observed->released_count;
+        distance = fmax(distance, fmax(fabs(share - (double)i / released), fabs(share - (double)(i + 1) / released)));
     }
     free(values);
-    return most;
+    return distance;
 }
 
 #endif

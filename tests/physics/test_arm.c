@@ -383,7 +383,7 @@ static double mean_speed_off(const struct drop *d)
 TEST(speed_after_an_impact_is_the_mean_over_all_rotations)
 {
     static struct line_scene s;
-    static struct line_way way;
+    static struct line_trace trace;
     const struct drop d = {.blow = {.radius = 0.4, .e = 0.4, .mu = 0.5, .friction = 0.3, .in = {.vn = 8, .vt = 6, .spin = 5}},
                            .axes = {1.2, 0.8, 0.4}};
     const double x[] = {0, 1e6}, z[] = {0, 0};
@@ -396,10 +396,10 @@ TEST(speed_after_an_impact_is_the_mean_over_all_rotations)
     s.scene.simulation.gravity = 1e-9;
     double sum = 0, squares = 0;
     for (uint64_t rock = 0; rock < ROCKS; rock++) {
-        way.count = 0;
-        struct ceduo_trajectory_callbacks watch = {.segment = line_keep_piece, .context = &way};
-        assert_int_equal(ceduo_trajectory_run(&s.scene, NULL, rock, &watch, &way.way, &way.crossing), CEDUO_OK);
-        double vz = way.pieces[1].rolls ? 0 : way.pieces[1].vz;
+        trace.count = 0;
+        struct ceduo_trajectory_callbacks watch = {.segment = line_keep_piece, .context = &trace};
+        assert_int_equal(ceduo_trajectory_run(&s.scene, NULL, rock, &watch, &trace.trajectory, &trace.crossing), CEDUO_OK);
+        double vz = trace.pieces[1].rolls ? 0 : trace.pieces[1].vz;
         sum += vz;
         squares += vz * vz;
     }

@@ -1,16 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow full
-# The same bits with 1, 2 and 16 threads, at -O2 as the library is built, at -O3, and with clang where there is one. What is
-# compiled here inlines nothing by force, which takes a quarter of the time. FULL in the environment: it does, and at -O0 as
-# well.
+# The same bits with 1, 2 and 16 threads, at -O2 as in the library, at -O3, and with clang if installed. Compiles without forced
+# inlining, in a quarter of the time; with FULL in the environment, with forced inlining, and at -O0 as well.
 cd "$(dirname "$0")/../.." || exit 1
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 n=0
 inlining=-Dalways_inline=unused
 [ -z "$FULL" ] || inlining=
-# The library that is built; what else is compiled goes before it.
+# The built library; objects compiled here are linked before it.
 core="$(find src/scene src/core -name '*.c')"
 library=${BUILD:-none}/libceduo.a
 case ${BUILD:-none} in

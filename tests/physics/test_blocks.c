@@ -14,10 +14,10 @@
 
 static const double volumes[] = {.05, .2, 1, 5}; /* classes of NaiS, and 1 m3 */
 
-static void expect_near(const char *what, double found, double wanted)
+static void expect_near(const char *label, double found, double wanted)
 {
     if (!(fabs(found - wanted) <= 1e-14 * fabs(wanted)))
-        fail_msg("%s: %.17g is not %.17g", what, found, wanted);
+        fail_msg("%s: %.17g is not %.17g", label, found, wanted);
 }
 
 /* ---- one rock ---- */
@@ -27,10 +27,10 @@ static struct ceduo_number number(double mean, double spread)
     return (struct ceduo_number){mean, spread, CEDUO_UNIFORM};
 }
 
-static void expect_scaled(const char *what, struct ceduo_number found, struct ceduo_number was, double factor)
+static void expect_scaled(const char *label, struct ceduo_number found, struct ceduo_number was, double factor)
 {
     if (found.mean != factor * was.mean || found.spread != factor * was.spread || found.kind != was.kind)
-        fail_msg("%s: %g ± %g, not %g times %g ± %g", what, found.mean, found.spread, factor, was.mean, was.spread);
+        fail_msg("%s: %g ± %g, not %g times %g ± %g", label, found.mean, found.spread, factor, was.mean, was.spread);
 }
 
 /* A standard deviation scales with its mean, so the density's does not change. */

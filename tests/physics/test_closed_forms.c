@@ -12,12 +12,12 @@
 #define G CEDUO_GRAVITY
 
 static struct line_scene scene;
-static struct line_way way, second;
+static struct line_trace trace, second;
 
 static void follow(void)
 {
     assert_int_equal(ceduo_scene_check(&scene.scene, NULL), CEDUO_OK);
-    assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
+    assert_int_equal(line_scene_follow(&scene, &trace), CEDUO_OK);
 }
 
 static void release(double x, double height, double vx, double vz, double spin)
@@ -45,7 +45,7 @@ TEST(free_fall)
 {
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
     release(500, 20, 0, 0, 0);
-    const struct ceduo_trajectory_segment *p = &way.pieces[0];
+    const struct ceduo_trajectory_segment *p = &trace.pieces[0];
     expect_relative(p->seconds, sqrt(2 * 20 / G), 1e-15);
     expect_relative(p->vz1, -sqrt(2 * G * 20), 1e-15);
     EXPECT_IS(*p, (x1, 500), (z1, 0), (vx1, 0));
@@ -58,7 +58,7 @@ TEST(projectiles_on_a_slope)
         straight(rises[i], (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
         release(500, 5, -4, 3, 0);
         double b = 3 + 4 * rises[i], t = (b + sqrt(b * b + 2 * G * 5)) / G; /* 5 + b t = g t2/2 */
-        const struct ceduo_trajectory_segment *p = &way.pieces[0];
+        const struct ceduo_trajectory_segment *p = &trace.pieces[0];
         ROWS(expect_relative, (p->seconds, t, 1e-14), (p->x1, 500 - 4 * t, 1e-14), (p->z1, rises[i] * (500 - 4 * t), 1e-14),
              (p->vz1, 3 - G * t, 1e-14));
     }
@@ -71,14 +71,14 @@ TEST(a_control_sees_the_flight_over_it)
     scene.control.x = 8;
     scene.scene.controls_count = 1;
     follow();
-    assert_true(way.crossing.reached);
-    EXPECT(way.crossing.vx, ==, 10);
-    expect_relative(way.crossing.vz, -G * .8, 1e-15);
-    expect_relative(way.crossing.height, 50 + 4 - G * .32, 1e-14);
+    assert_true(trace.crossing.reached);
+    EXPECT(trace.crossing.vx, ==, 10);
+    expect_relative(trace.crossing.vz, -G * .8, 1e-15);
+    expect_relative(trace.crossing.height, 50 + 4 - G * .32, 1e-14);
     line_scene_release(&scene, 0, 0, -.1, 0, 0); /* leaves the other way */
-    assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
-    assert_false(way.crossing.reached);
-    assert_int_equal(way.way.end, CEDUO_LEFT_SLOPE);
+    assert_int_equal(line_scene_follow(&scene, &trace), CEDUO_OK);
+    assert_false(trace.crossing.reached);
+    assert_int_equal(trace.trajectory.end, CEDUO_LEFT_SLOPE);
 }
 
 /* ---- bouncing ---- */
@@ -91,44 +91,44 @@ TEST(a_vertical_drop_rebounds_to_rn2_h)
     double h = 10;
     size_t i = 1;
     while ((h *= rn * rn) > radius) {
-        EXPECT(i, <, way.count);
-        const struct ceduo_trajectory_segment *p = &way.pieces[i++];
+        EXPECT(i, <, trace.count);
+        const struct ceduo_trajectory_segment *p = &trace.pieces[i++];
         assert_false(p->rolls);
         expect_relative(p->vz * p->vz / (2 * G), h, 1e-13);
     }
-    assert_int_equal(i, way.count); /* the next bounce is lower than R */
-    assert_int_equal(way.way.end, CEDUO_AT_REST);
-    EXPECT_IS(way.way, (x, 500), (z, 0), (contacts, i));
+    assert_int_equal(i, trace.count); /* the next bounce is lower than R */
+    assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+    EXPECT_IS(trace.trajectory, (x, 500), (z, 0), (contacts, i));
 }
 
 TEST(an_oblique_impact_on_the_flat)
 {
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
     release(500, 0, 2, -4, 0);
-    const struct ceduo_trajectory_segment *p = &way.pieces[0];
+    const struct ceduo_trajectory_segment *p = &trace.pieces[0];
     assert_false(p->rolls);
     EXPECT_IS(*p, (x, 500), (vx, 1), (vz, 2), (contacts, 1));
     expect_relative(p->x1, 500 + 4 / G, 1e-15);
     release(500, 0, -2, -4, 0);
-    EXPECT_IS(way.pieces[0], (vx, -1), (vz, 2));
+    EXPECT_IS(trace.pieces[0], (vx, -1), (vz, 2));
 }
 
 TEST(a_bounce_without_loss_is_aborted_and_reported)
 {
     straight(0, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
     release(500, 1, 0, 0, 0);
-    EXPECT_IS(way.way, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 500));
+    EXPECT_IS(trace.trajectory, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 500));
     straight(0, (struct line_ground){0, 1, 0}, 1e-4, CEDUO_LAW_CRSP); /* rolls, 100 m in 10^6 radii */
     release(500, 0, 1, 0, 1e4);
-    EXPECT_IS(way.way, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX));
-    expect_relative(way.way.x, 600, 1e-9);
+    EXPECT_IS(trace.trajectory, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX));
+    expect_relative(trace.trajectory.x, 600, 1e-9);
 }
 
 TEST(a_release_that_leaves_the_ground_has_no_contact)
 {
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
     release(500, 0, 2, 4, 0);
-    const struct ceduo_trajectory_segment *p = &way.pieces[0];
+    const struct ceduo_trajectory_segment *p = &trace.pieces[0];
     EXPECT_IS(*p, (contacts, 0), (vx, 2), (vz, 4));
     EXPECT_IS(p[1], (vx, 1), (contacts, 1));
     expect_relative(p[1].vz, 2, 1e-15);
@@ -141,12 +141,12 @@ static void roll_stops(enum ceduo_law law, double k, double v0)
     const double mu = .25;
     straight(0, (struct line_ground){.5, 1, mu}, .34, law);
     release(500, 0, v0, 0, v0 / .34);
-    expect_relative(fabs(way.way.x - 500), (1 + k) * v0 * v0 / (2 * G * mu), 1e-12);
-    EXPECT((way.way.x > 500), ==, (v0 > 0));
-    assert_int_equal(way.way.end, CEDUO_AT_REST);
-    for (size_t i = 0; i < way.count; i++)
-        assert_true(way.pieces[i].rolls);
-    assert_int_equal(way.way.contacts, ceil(fabs(way.way.x - 500) / .34)); /* one contact per radius */
+    expect_relative(fabs(trace.trajectory.x - 500), (1 + k) * v0 * v0 / (2 * G * mu), 1e-12);
+    EXPECT((trace.trajectory.x > 500), ==, (v0 > 0));
+    assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+    for (size_t i = 0; i < trace.count; i++)
+        assert_true(trace.pieces[i].rolls);
+    assert_int_equal(trace.trajectory.contacts, ceil(fabs(trace.trajectory.x - 500) / .34)); /* one contact per radius */
 }
 
 TEST(a_roll_on_the_flat_stops_by_friction)
@@ -167,10 +167,10 @@ TEST(a_roll_stops_just_at_the_control)
         scene.control.x = 2;
         scene.scene.controls_count = 1;
         follow();
-        assert_int_equal(way.way.end, CEDUO_AT_REST);
-        EXPECT(way.way.x, ==, 2);
-        assert_true(way.crossing.reached);
-        EXPECT_IS(way.crossing, (vx, 0), (vz, 0));
+        assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+        EXPECT(trace.trajectory.x, ==, 2);
+        assert_true(trace.crossing.reached);
+        EXPECT_IS(trace.crossing, (vx, 0), (vz, 0));
     }
 }
 
@@ -179,10 +179,10 @@ static void roll_accelerates(enum ceduo_law law, double k, double rise, double m
     straight(rise, (struct line_ground){.5, 1, mu}, .34, law);
     release(500, 0, 0, 0, 0);
     double c = 1 / sqrt(1 + rise * rise), a = G * (fabs(rise) - mu) * c / (1 + k);
-    assert_int_equal(way.way.end, CEDUO_LEFT_SLOPE);
-    EXPECT(way.way.x, ==, (rise < 0 ? 1000 : 0));
-    for (size_t i = 0; i < way.count; i++) {
-        const struct ceduo_trajectory_segment *p = &way.pieces[i];
+    assert_int_equal(trace.trajectory.end, CEDUO_LEFT_SLOPE);
+    EXPECT(trace.trajectory.x, ==, (rise < 0 ? 1000 : 0));
+    for (size_t i = 0; i < trace.count; i++) {
+        const struct ceduo_trajectory_segment *p = &trace.pieces[i];
         assert_true(p->rolls);
         double ds = hypot(p->x1 - 500, p->z1 - 500 * rise);
         expect_relative(p->vx1 * p->vx1 + p->vz1 * p->vz1, 2 * a * ds, 1e-11);
@@ -206,8 +206,8 @@ TEST(spin_and_speed_share_their_momentum_in_a_roll)
     straight(0, (struct line_ground){0, 1, .5}, .5, CEDUO_LAW_CRSP);
     release(500, 0, 0, 0, 8); /* a spinning sphere put on the ground */
     /* f = 1, SF = 1 at Rt = 1: the energy of the spin becomes that of a roll */
-    expect_relative(way.pieces[0].vx, sqrt(.4 * 16 / 1.4), 1e-15);
-    expect_relative(way.pieces[0].spin * .5, way.pieces[0].vx, 1e-15);
+    expect_relative(trace.pieces[0].vx, sqrt(.4 * 16 / 1.4), 1e-15);
+    expect_relative(trace.pieces[0].spin * .5, trace.pieces[0].vx, 1e-15);
 }
 
 /* In a roll Vn is 0 and there is no slip: each contact leaves Rt·f of the energy, f = Rt + (1 - Rt)/1.2, for any Rn. */
@@ -220,13 +220,13 @@ TEST(a_contact_in_a_roll_costs_the_same_for_any_rn)
             straight(-.025 * slope, (struct line_ground){shares[i], rt, 0}, .34, CEDUO_LAW_CRSP);
             publish();
             release(1, 0, 3, -.025 * slope * 3, 3 / .34 * sqrt(1 + pow(.025 * slope, 2)));
-            for (size_t j = 1; j < way.count && j < 40; j++) {
-                const struct ceduo_trajectory_segment *before = &way.pieces[j - 1], *p = &way.pieces[j];
+            for (size_t j = 1; j < trace.count && j < 40; j++) {
+                const struct ceduo_trajectory_segment *before = &trace.pieces[j - 1], *p = &trace.pieces[j];
                 double u2 = before->vx1 * before->vx1 + before->vz1 * before->vz1;
                 assert_true(p->rolls);
                 expect_relative(p->vx * p->vx + p->vz * p->vz, rt * (rt + (1 - rt) / 1.2) * u2, 1e-9);
             }
-            EXPECT(way.count, >=, 40);
+            EXPECT(trace.count, >=, 40);
         }
 }
 
@@ -238,13 +238,13 @@ TEST(without_tangential_restitution_each_roll_begins_downhill)
             straight(.025 * slope * dir, (struct line_ground){.3, 0, 0}, 1, CEDUO_LAW_LUMPED);
             publish();
             release(500, 0, 1, -1 - .025 * slope, 0);
-            for (size_t j = 0; j < way.count; j++) {
-                assert_true(way.pieces[j].rolls);
-                EXPECT(dir * way.pieces[j].vx, <=, 0);
-                EXPECT(dir * way.pieces[j].vx1, <, 0);
+            for (size_t j = 0; j < trace.count; j++) {
+                assert_true(trace.pieces[j].rolls);
+                EXPECT(dir * trace.pieces[j].vx, <=, 0);
+                EXPECT(dir * trace.pieces[j].vx1, <, 0);
             }
             double radii = 500 * sqrt(1 + pow(.025 * slope, 2));
-            EXPECT_NEAR((double)way.way.contacts, radii, 1 + 1e-9);
+            EXPECT_NEAR((double)trace.trajectory.contacts, radii, 1 + 1e-9);
         }
 }
 
@@ -253,9 +253,9 @@ TEST(a_concave_vertex_takes_the_part_into_the_ground)
     const double x[] = {0, 1, 9}, z[] = {0, 0, 6}; /* cosine 4/5 */
     line_scene_init(&scene, 3, x, z, (struct line_ground){0, 1, 0}, 1.5, CEDUO_LAW_LUMPED);
     release(.5, 0, 2, 0, 0);
-    EXPECT_IS(way.pieces[0], (vx1, 2), (x1, 1));
-    expect_relative(hypot(way.pieces[1].vx, way.pieces[1].vz), 1.6, 1e-15);
-    expect_relative(way.pieces[1].vz / way.pieces[1].vx, .75, 1e-15);
+    EXPECT_IS(trace.pieces[0], (vx1, 2), (x1, 1));
+    expect_relative(hypot(trace.pieces[1].vx, trace.pieces[1].vz), 1.6, 1e-15);
+    expect_relative(trace.pieces[1].vz / trace.pieces[1].vx, .75, 1e-15);
 }
 
 TEST(a_rock_rolls_or_flies_over_a_convex_vertex)
@@ -264,13 +264,13 @@ TEST(a_rock_rolls_or_flies_over_a_convex_vertex)
     for (int fast = 0; fast <= 1; fast++) {
         line_scene_init(&scene, 3, x, z, (struct line_ground){0, 1, 0}, .5, CEDUO_LAW_LUMPED);
         release(9.9, 0, fast ? 3 : .3, 0, 0);
-        assert_true(way.pieces[0].rolls);
-        EXPECT(way.pieces[0].x1, ==, 10);
-        EXPECT_IS(way.pieces[1], (rolls, !fast), (x, 10));
-        double v = hypot(way.pieces[1].vx, way.pieces[1].vz); /* no energy is lost */
+        assert_true(trace.pieces[0].rolls);
+        EXPECT(trace.pieces[0].x1, ==, 10);
+        EXPECT_IS(trace.pieces[1], (rolls, !fast), (x, 10));
+        double v = hypot(trace.pieces[1].vx, trace.pieces[1].vz); /* no energy is lost */
         expect_relative(v, fast ? 3 : .3, 1e-15);
         if (fast) /* z = -g t2/2 meets z = -x/2 */
-            expect_relative(way.pieces[1].x1, 10 + 3 * 3 / G, 1e-14);
+            expect_relative(trace.pieces[1].x1, 10 + 3 * 3 / G, 1e-14);
     }
 }
 
@@ -282,10 +282,10 @@ TEST(a_resting_rock_starts_if_the_slope_exceeds_friction)
         for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
             straight(.3 * dir, (struct line_ground){.5, .5, .31}, .34, (enum ceduo_law)law);
             release(500, 0, 0, 0, 0);
-            EXPECT_IS(way.way, (end, CEDUO_AT_REST), (x, 500), (contacts, 1));
+            EXPECT_IS(trace.trajectory, (end, CEDUO_AT_REST), (x, 500), (contacts, 1));
             straight(.3 * dir, (struct line_ground){.5, .5, .29}, .34, (enum ceduo_law)law);
             release(500, 0, 0, 0, 0);
-            EXPECT_IS(way.way, (end, CEDUO_LEFT_SLOPE), (x, (dir < 0 ? 1000 : 0)));
+            EXPECT_IS(trace.trajectory, (end, CEDUO_LEFT_SLOPE), (x, (dir < 0 ? 1000 : 0)));
         }
 }
 
@@ -294,8 +294,8 @@ static void released_in_a_pit(double radius, double level, double beyond, bool s
     const double x[] = {0, 2, 2 + level, 4 + level, 10}, z[] = {0, -1, -1, -1 + beyond, -1 + beyond};
     line_scene_init(&scene, LENGTH(x), x, z, (struct line_ground){.2, .5, .2}, radius, CEDUO_LAW_LUMPED);
     release(1.8, 0, 0, 0, 0);
-    assert_int_equal(way.way.end, CEDUO_AT_REST);
-    EXPECT((way.way.x == 1.8), ==, stays);
+    assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+    EXPECT((trace.trajectory.x == 1.8), ==, stays);
 }
 
 TEST(a_rock_rests_in_a_pit_within_its_radius)
@@ -308,11 +308,11 @@ TEST(a_rock_rests_in_a_pit_within_its_radius)
     const double x[] = {0, 2, 4, 10}, z[] = {0, -1, -1 + .08, -5}; /* the far side is lower than the rock */
     line_scene_init(&scene, 4, x, z, (struct line_ground){.2, .5, .01}, .5, CEDUO_LAW_LUMPED);
     release(1.8, 0, 0, 0, 0);
-    EXPECT(way.way.x, !=, 1.8);
+    EXPECT(trace.trajectory.x, !=, 1.8);
     const double gentle[] = {0, -1, -1 + .3, -5}; /* the far side, less steep than its friction, holds the rock */
     line_scene_init(&scene, 4, x, gentle, (struct line_ground){.2, .5, .2}, .5, CEDUO_LAW_LUMPED);
     release(1.8, 0, 0, 0, 0);
-    EXPECT(way.way.x, !=, 1.8);
+    EXPECT(trace.trajectory.x, !=, 1.8);
 }
 
 /* ---- vertices and ends ---- */
@@ -332,34 +332,34 @@ TEST(a_release_on_a_vertex_is_on_the_right)
     two_grounds(.01);
     for (int dir = -1; dir <= 1; dir++) {
         release(1, 0, dir * 4, -8, 0);
-        EXPECT_IS(way.pieces[0], (vz, 2), (vx, dir));
+        EXPECT_IS(trace.pieces[0], (vz, 2), (vx, dir));
     }
     release(1, 4, 0, 0, 0); /* dropped onto it */
-    EXPECT(way.pieces[0].vz1, ==, -8);
-    EXPECT(way.pieces[1].vz, ==, 2);
+    EXPECT(trace.pieces[0].vz1, ==, -8);
+    EXPECT(trace.pieces[1].vz, ==, 2);
     release(0, 0, 0, -8, 0); /* first vertex */
-    EXPECT(way.pieces[0].vz, ==, 4);
+    EXPECT(trace.pieces[0].vz, ==, 4);
 }
 
 TEST(a_flight_exactly_through_a_vertex_is_on_the_segment_ahead)
 {
     two_grounds(.01);
     release(0, 1, 2, 0, 0); /* 1 - 4 t2 = 0 at t = 1/2, x = 1 */
-    EXPECT_IS(way.pieces[0], (x1, 1), (z1, 0), (vz1, -4));
-    EXPECT_IS(way.pieces[1], (vz, 1), (vx, .5));
+    EXPECT_IS(trace.pieces[0], (x1, 1), (z1, 0), (vz1, -4));
+    EXPECT_IS(trace.pieces[1], (vz, 1), (vx, .5));
     release(2, 1, -2, 0, 0); /* from the other side */
-    EXPECT(way.pieces[0].x1, ==, 1);
-    EXPECT_IS(way.pieces[1], (vz, 2), (vx, -1));
+    EXPECT(trace.pieces[0].x1, ==, 1);
+    EXPECT_IS(trace.pieces[1], (vz, 2), (vx, -1));
 }
 
 TEST(a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along)
 {
     two_grounds(.5);
     release(.5, 0, 1, 0, 0);
-    assert_true(way.pieces[0].rolls);
-    EXPECT_IS(way.pieces[0], (x1, 1), (vx, .5));
-    for (size_t i = 1; i < way.count; i++) { /* Rt = 1/2 again at x = 1, 1/4 after it */
-        const struct ceduo_trajectory_segment *p = &way.pieces[i];
+    assert_true(trace.pieces[0].rolls);
+    EXPECT_IS(trace.pieces[0], (x1, 1), (vx, .5));
+    for (size_t i = 1; i < trace.count; i++) { /* Rt = 1/2 again at x = 1, 1/4 after it */
+        const struct ceduo_trajectory_segment *p = &trace.pieces[i];
         assert_true(p->contacts != 2 || (p->vx == .25 && p->x == 1));
         assert_true(p->contacts != 3 || (p->vx == .0625 && p->x == 1.5));
     }
@@ -371,14 +371,14 @@ TEST(a_trajectory_ends_at_either_end_of_the_slope)
         straight(0, (struct line_ground){.5, 1, .1}, .1, CEDUO_LAW_LUMPED);
         double x = dir < 0 ? 1 : 999, end = dir < 0 ? 0 : 1000;
         release(x, 10, dir * 50, 0, 0); /* flies out */
-        EXPECT_IS(way.way, (end, CEDUO_LEFT_SLOPE), (x, end), (contacts, 0));
-        expect_relative(way.way.z, 10 - G / 2 / 2500, 1e-15);
+        EXPECT_IS(trace.trajectory, (end, CEDUO_LEFT_SLOPE), (x, end), (contacts, 0));
+        expect_relative(trace.trajectory.z, 10 - G / 2 / 2500, 1e-15);
         release(x, 0, dir * 3, 0, 0); /* rolls out */
-        EXPECT_IS(way.way, (end, CEDUO_LEFT_SLOPE), (x, end), (z, 0));
-        assert_true(way.pieces[way.count - 1].rolls);
+        EXPECT_IS(trace.trajectory, (end, CEDUO_LEFT_SLOPE), (x, end), (z, 0));
+        assert_true(trace.pieces[trace.count - 1].rolls);
         release(x, 0, dir * 1.4, 0, 0); /* stops within the last metre: v2 < 2 g mu */
-        assert_int_equal(way.way.end, CEDUO_AT_REST);
-        expect_relative(fabs(way.way.x - x), 1.4 * 1.4 / (2 * G * .1), 1e-11);
+        assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+        expect_relative(fabs(trace.trajectory.x - x), 1.4 * 1.4 / (2 * G * .1), 1e-11);
     }
 }
 
@@ -390,16 +390,17 @@ TEST(a_final_wall_is_left_at_its_foot_only_backwards)
     scene.control.x = 20;
     scene.scene.controls_count = 1;
     follow();
-    assert_int_equal(way.way.end, CEDUO_AT_REST);
-    EXPECT(way.way.x, <=, 20.001);
-    EXPECT(way.way.x, >, 10);
+    assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+    EXPECT(trace.trajectory.x, <=, 20.001);
+    EXPECT(trace.trajectory.x, >, 10);
 }
 
 /* ---- units of length and origin ---- */
 
-static bool same_pieces(const struct line_way *a, const struct line_way *b, double length, double speed)
+static bool same_pieces(const struct line_trace *a, const struct line_trace *b, double length, double speed)
 {
-    bool equal = a->count == b->count && a->way.end == b->way.end && a->way.contacts == b->way.contacts;
+    bool equal =
+        a->count == b->count && a->trajectory.end == b->trajectory.end && a->trajectory.contacts == b->trajectory.contacts;
     for (size_t i = 0; equal && i < a->count; i++) {
         const struct ceduo_trajectory_segment *p = &a->pieces[i], *q = &b->pieces[i];
         equal = p->rolls == q->rolls && p->x * length == q->x && p->z * length == q->z && p->x1 * length == q->x1 &&
@@ -427,12 +428,12 @@ TEST(a_shift_that_loses_no_bit_changes_no_bit)
             scene.x[i] -= scene.x[0];
         scene.scene.slope.origin_x = origin;
         assert_int_equal(line_scene_follow(&scene, &second), CEDUO_OK);
-        assert_true(same_pieces(&way, &second, 1, 1));
+        assert_true(same_pieces(&trace, &second, 1, 1));
     }
 }
 
 /* Lengths × 4 and speeds × 2 keep v2/(g l); the laws lumped and arm have no speed scale. */
-static void expect_the_same_way_in_other_sizes(bool arm)
+static void expect_scaled_trajectories(bool arm)
 {
     size_t bounces = 0;
     for (uint64_t n = 0; n < 3000; n++) {
@@ -445,7 +446,7 @@ static void expect_the_same_way_in_other_sizes(bool arm)
         for (size_t j = 0; j + 1 < s->slope.vertices; j++)
             scene.segments[j].rt.mean = fmin(scene.segments[j].rt.mean, .9);
         follow();
-        bounces += way.count;
+        bounces += trace.count;
         for (size_t i = 0; i < s->slope.vertices; i++) {
             scene.x[i] *= 4;
             scene.z[i] *= 4;
@@ -458,9 +459,9 @@ static void expect_the_same_way_in_other_sizes(bool arm)
         struct ceduo_release *r = &s->release;
         line_scene_release(&scene, r->x.mean * 4, r->height.mean * 4, r->vx.mean * 2, r->vz.mean * 2, r->spin.mean / 2);
         scene.control.x *= 4;
-        struct ceduo_crossing before = way.crossing;
+        struct ceduo_crossing before = trace.crossing;
         assert_int_equal(line_scene_follow(&scene, &second), CEDUO_OK);
-        assert_true(same_pieces(&way, &second, 4, 2));
+        assert_true(same_pieces(&trace, &second, 4, 2));
         ROWS(EXPECT, (before.reached, ==, second.crossing.reached), (before.height * 4, ==, second.crossing.height),
              (before.vx * 2, ==, second.crossing.vx), (before.vz * 2, ==, second.crossing.vz));
     }
@@ -469,8 +470,8 @@ static void expect_the_same_way_in_other_sizes(bool arm)
 
 TEST(four_times_the_lengths_and_twice_the_speeds_give_the_same_trajectory)
 {
-    expect_the_same_way_in_other_sizes(false);
-    expect_the_same_way_in_other_sizes(true);
+    expect_scaled_trajectories(false);
+    expect_scaled_trajectories(true);
 }
 
 /* ---- probabilities ---- */
@@ -683,27 +684,27 @@ static double below(double z)
     return erfc(-z / sqrt(2)) / 2;
 }
 
-struct seen {
+struct summary {
     double mean, sd, lowest, highest;
 };
 
 /* Draw by n evenly spaced quantiles (n > 0) or by 10^6 random ones. */
-static struct seen draw_many(struct ceduo_number number, double lo, double hi, size_t n)
+static struct summary draw_many(struct ceduo_number number, double lo, double hi, size_t n)
 {
     struct line_random r = {.state = 11};
     struct ceduo_moments m = {0};
-    struct seen seen = {.lowest = INFINITY, .highest = -INFINITY};
+    struct summary summary = {.lowest = INFINITY, .highest = -INFINITY};
     size_t count = n > 0 ? n : 1000000;
     for (size_t i = 0; i < count; i++) {
         double u = n > 0 ? ((double)i + .5) / (double)n : line_uniform(&r, 0, 1) + 0x1p-54;
         double v = ceduo_number_draw(number, u, lo, hi);
         ceduo_moments_add(&m, v);
-        seen.lowest = fmin(seen.lowest, v);
-        seen.highest = fmax(seen.highest, v);
+        summary.lowest = fmin(summary.lowest, v);
+        summary.highest = fmax(summary.highest, v);
     }
-    seen.mean = m.mean;
-    seen.sd = ceduo_moments_sd(&m);
-    return seen;
+    summary.mean = m.mean;
+    summary.sd = ceduo_moments_sd(&m);
+    return summary;
 }
 
 /* Compare with the normal law truncated at [a, b] standard deviations from its mean. */
@@ -714,7 +715,7 @@ static void expect_cut_normal(double mean, double sd, double lo, double hi)
     double shift = (density(a) - density(b)) / p;
     double variance = 1 + (a * density(a) - b * density(b)) / p - shift * shift;
     double expected = mean + sd * shift, width = sd * sqrt(variance);
-    struct seen even = draw_many(n, lo, hi, 200000), random = draw_many(n, lo, hi, 0);
+    struct summary even = draw_many(n, lo, hi, 200000), random = draw_many(n, lo, hi, 0);
     EXPECT_NEAR(even.mean, expected, 1e-5 * sd);
     EXPECT_NEAR(even.sd, width, 1e-4 * sd);
     EXPECT_NEAR(random.mean, expected, 4 * width / 1e3); /* 4 standard errors of 10^6 draws */
@@ -740,7 +741,7 @@ TEST(a_uniform_spread)
     struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_UNIFORM};
     EXPECT(ceduo_number_min(n), ==, 1.5);
     EXPECT(ceduo_number_max(n), ==, 2.5);
-    struct seen all = draw_many(n, -INFINITY, INFINITY, 0), cut = draw_many(n, 0, 2, 0);
+    struct summary all = draw_many(n, -INFINITY, INFINITY, 0), cut = draw_many(n, 0, 2, 0);
     EXPECT_NEAR(all.mean, 2, 4 * .5 / sqrt(3) / 1e3);
     EXPECT_NEAR(all.sd, .5 / sqrt(3), 1e-3);
     ROWS(EXPECT, (all.lowest, >=, 1.5), (all.highest, <=, 2.5), (all.lowest, <, 1.501), (all.highest, >, 2.499));

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: slow full
-# No result depends on a numerical constant: with half and with twice of all, no statistic moves by more than its error.
-# What is linked is the library as it was built, before it the objects that a constant goes into, compiled with the other.
+# No result depends on a numerical constant: with half and with twice the value of all of them, each statistic stays within its
+# error. Objects that use a constant are compiled with the other value and linked before the built library.
 #
 #   test_constants.sh [each]        each: one constant after the other, a minute
 cd "$(dirname "$0")/../.." || exit 1
@@ -18,12 +18,12 @@ compile() { # folder, flags, sources: objects
     mkdir -p "$to"
     for c in "$@"; do ${CC:-gcc} $flags $extra -c -o "$to/$(basename "$c" .c).o" "$c" || return 1; done
 }
-run() { # statistics into a file, objects that go before the library
+run() { # file for the statistics, objects linked before the library
     to=$1
     shift
     ${CC:-gcc} -pthread -o "$dir/constants" "$dir"/own/*.o "$@" "$library" -lunistring -lgsl -lgslcblas -lm && "$dir/constants" >"$to"
 }
-check() { # what, defines
+check() { # name, defines
     n=$((n + 1))
     rm -rf "$dir/now" "$dir/second"
     if compile "$dir/now" "$2" $sources && run "$dir/second" "$dir"/now/*.o && moved=$(paste -d ' ' "$dir/first" "$dir/second" | awk '
@@ -43,18 +43,18 @@ twice="MARGIN=2e-10 ON_LINE=(8*DBL_EPSILON) NO_BREAK=2e-7 GROUND_BITS=4
 defines() {
     for d in "$@"; do printf -- '-D%s ' "$d"; done
 }
-# The files in which the constants stand, and the sources that any of these goes into, as the compiler noted it.
+# The files with the constants, and the sources that include any of them according to the compiler.
 homes=
 for d in $half; do
     home=$(grep -lx "#ifndef ${d%%=*}" $(find src/core -name '*.[ch]')) || echo "not ok - nothing reads ${d%%=*}"
     homes="$homes -e $home"
 done
-sources=$(grep -lF $homes $(find "$BUILD/src/core" -name '*.d') | sed "s|^$BUILD/||; s|d$|c|" | xargs ls 2>/dev/null) # without those of sources that are gone
+sources=$(grep -lF $homes $(find "$BUILD/src/core" -name '*.d') | sed "s|^$BUILD/||; s|d$|c|" | xargs ls 2>/dev/null) # without deleted sources
 [ -n "$sources" ] || echo "not ok - no source reads a constant"
 library=$BUILD/libceduo.a
 case $BUILD in
 *release) ;;
-*) # linked with more than is said here
+*) # linked with more libraries than listed here
     compile "$dir/usual" "" $(find src/base src/scene src/core src/study -name '*.c')
     library=$dir/usual.a
     ar rcs "$library" "$dir"/usual/*.o

@@ -34,24 +34,24 @@ static void level_ground(enum ceduo_law law)
 /* The first two flights of a rock. */
 struct flights {
     size_t n;
-    struct ceduo_trajectory_segment of[2];
+    struct ceduo_trajectory_segment segments[2];
 };
 
 static void note(void *context, const struct ceduo_trajectory_segment *piece)
 {
     struct flights *f = context;
     if (f->n < 2)
-        f->of[f->n++] = *piece;
+        f->segments[f->n++] = *piece;
 }
 
 static struct ceduo_trajectory follow(struct ceduo_tracer *follower, uint64_t rock, struct flights *f)
 {
     const struct ceduo_trajectory_callbacks watch = {.segment = note, .context = f};
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     f->n = 0;
-    assert_int_equal(ceduo_tracer_run(follower, rock, &watch, &way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_tracer_run(follower, rock, &watch, &trajectory, NULL), CEDUO_OK);
     EXPECT(f->n, ==, 2);
-    return way;
+    return trajectory;
 }
 
 static double correlation(const double *a, const double *b)
@@ -84,21 +84,21 @@ TEST(no_two_numbers_of_a_rock_go_together)
         assert_non_null(follower);
         for (uint64_t r = 0; r < ROCKS; r++) {
             struct flights f;
-            struct ceduo_trajectory way = follow(follower, r, &f);
+            struct ceduo_trajectory trajectory = follow(follower, r, &f);
             if (spins) {
-                drawn[SPIN][r] = way.spin0;
+                drawn[SPIN][r] = trajectory.spin0;
                 continue;
             }
-            const double of[NUMBERS] = {[DIAMETER] = way.rock.mean_diameter,
-                                        [DENSITY] = way.rock.mass / way.rock.volume,
-                                        [X] = way.x0,
-                                        [HEIGHT] = way.z0,
-                                        [VX] = way.vx0,
-                                        [VZ] = way.vz0,
-                                        [RN] = f.of[1].vz / -f.of[0].vz1,
-                                        [RT] = f.of[1].vx / f.of[0].vx1};
+            const double numbers[NUMBERS] = {[DIAMETER] = trajectory.rock.mean_diameter,
+                                             [DENSITY] = trajectory.rock.mass / trajectory.rock.volume,
+                                             [X] = trajectory.x0,
+                                             [HEIGHT] = trajectory.z0,
+                                             [VX] = trajectory.vx0,
+                                             [VZ] = trajectory.vz0,
+                                             [RN] = f.segments[1].vz / -f.segments[0].vz1,
+                                             [RT] = f.segments[1].vx / f.segments[0].vx1};
             for (int i = 0; i < NUMBERS; i++)
-                drawn[i][r] = of[i];
+                drawn[i][r] = numbers[i];
         }
     }
     for (int i = 0; i < NUMBERS; i++)
@@ -139,9 +139,9 @@ TEST(the_radius_limits_the_steepness_of_facets)
         assert_non_null(follower);
         for (uint64_t r = 0; r < ROCKS; r++) {
             struct flights f;
-            struct ceduo_trajectory way = follow(follower, r, &f);
-            double before = atan2(-f.of[0].vz1, f.of[0].vx1), after = atan2(f.of[1].vz, f.of[1].vx);
-            double share = fabs(after - before) / 2 / atan(.2 / (way.rock.mean_diameter / 2));
+            struct ceduo_trajectory trajectory = follow(follower, r, &f);
+            double before = atan2(-f.segments[0].vz1, f.segments[0].vx1), after = atan2(f.segments[1].vz, f.segments[1].vx);
+            double share = fabs(after - before) / 2 / atan(.2 / (trajectory.rock.mean_diameter / 2));
             EXPECT(share, <, 1 + 1e-9);
             largest = fmax(largest, share);
         }

@@ -44,11 +44,11 @@ static double ulps(double value, long double exact)
     return (double)(fabsl((long double)value - exact) / ldexpl(1, exponent - DBL_MANT_DIG));
 }
 
-static void expect_near(const char *what, double at, double value, long double exact, double max)
+static void expect_near(const char *label, double at, double value, long double exact, double max)
 {
     double off = ulps(value, exact);
     if (!(off <= max))
-        fail_msg("%s(%.17g) is %.17g, %.2f ulp off", what, at, value, off);
+        fail_msg("%s(%.17g) is %.17g, %.2f ulp off", label, at, value, off);
 }
 
 TEST(logarithms)

@@ -376,10 +376,10 @@ TEST(any_goal_at_all)
         bool whole = uniform(0, 1) < .5;
         double lo = floor(uniform(-50, 0)), hi = floor(uniform(0, 50)), target = uniform(-2.5, 2);
         struct ceduo_found found = find(&a, lo, hi, whole, target);
-        bool seen = false;
+        bool has_pass = false;
         for (unsigned j = 0; j < a.count; j++)
-            seen |= is_passing(&a, target, a.values[j]);
-        assert_int_equal(found.found, seen);
+            has_pass |= is_passing(&a, target, a.values[j]);
+        assert_int_equal(found.found, has_pass);
         if (found.found && !found.whole_range)
             expect_edge(&a, &found, target, whole ? 1 : 1e-9 * (hi - lo));
         count[found.found]++;

@@ -208,7 +208,7 @@ TEST_WITH(slope_segments_chain_as_in_table_3, open_paper, NULL)
     assert_int_equal(ceduo_slope_segment(&site.scene.slope, 9.99), 0);
 }
 
-static struct line_way walked;
+static struct line_trace walked;
 
 TEST_WITH(two_contacts_on_the_slope_of_table_3, open_paper, NULL)
 {
@@ -222,7 +222,7 @@ TEST_WITH(two_contacts_on_the_slope_of_table_3, open_paper, NULL)
     walked.count = 0;
     assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0,
                                           &(struct ceduo_trajectory_callbacks){.segment = line_keep_piece, .context = &walked},
-                                          &walked.way, NULL),
+                                          &walked.trajectory, NULL),
                      CEDUO_OK);
     EXPECT(walked.count, >=, 3);
     const struct ceduo_trajectory_segment *p = walked.pieces;
@@ -241,9 +241,9 @@ static void rolling_and_resting(enum ceduo_law law, double x, uint64_t contacts)
     s.scene.simulation.friction_bound = false; /* golden figures belong to the published laws and to CRSP's rolling */
     line_scene_release(&s, 1, 0, 0, 0, 0);
     assert_int_equal(line_scene_follow(&s, &walked), CEDUO_OK);
-    assert_int_equal(walked.way.end, CEDUO_AT_REST);
-    expect_decimals(walked.way.x, x, 6);
-    assert_int_equal(walked.way.contacts, contacts);
+    assert_int_equal(walked.trajectory.end, CEDUO_AT_REST);
+    expect_decimals(walked.trajectory.x, x, 6);
+    assert_int_equal(walked.trajectory.contacts, contacts);
     size_t flights_from_11 = 0;
     for (size_t i = 0; i < walked.count; i++)
         flights_from_11 += !walked.pieces[i].rolls && walked.pieces[i].x == 11;

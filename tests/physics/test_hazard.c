@@ -199,8 +199,8 @@ TEST(weights_explain_without_error)
     for (size_t i = 0; i < N; i += 2)
         weighted_sum_add(&heavy, 1.5, 1); /* all heavy rocks and no others: the weights explain all of it */
     struct ceduo_estimate known = ceduo_weighted_share(&all, &heavy, -1);
-    double alike = all.w * all.w / all.ww;
-    assert_int_equal(alike, 800);
+    double equal_rocks = all.w * all.w / all.ww;
+    assert_int_equal(equal_rocks, 800);
     ROWS(EXPECT_NEAR, (known.mean, 0.75, 1e-12), (known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9),
          (known.hi, ceduo_wilson(.75, .75, 800).hi, 1e-9));
     all.missing = all.w / 10;

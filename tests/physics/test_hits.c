@@ -36,7 +36,7 @@ static void plant(double metres, double radius, bool shoots)
 static struct passed {
     size_t count;
     struct ceduo_stem_encounter stems[STEMS_MAX];
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
 } passed;
 
 static void note_stem(void *context, const struct ceduo_stem_encounter *stem)
@@ -50,7 +50,7 @@ static void follow(uint64_t rock)
 {
     const struct ceduo_trajectory_callbacks watch = {.stem = note_stem, .context = &passed};
     passed.count = 0;
-    assert_int_equal(ceduo_trajectory_run(&scene.scene, &scene.option, rock, &watch, &passed.way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_run(&scene.scene, &scene.option, rock, &watch, &passed.trajectory, NULL), CEDUO_OK);
 }
 
 /* ---- diameters ---- */
@@ -103,7 +103,7 @@ static struct ceduo_stem_encounter find_stem(uint64_t rock, size_t i, double hei
     EXPECT(i, <, passed.count);
     for (size_t k = 0; k < passed.count; k++)
         hits += passed.stems[k].hit;
-    assert_int_equal(passed.way.stems_hit, hits);
+    assert_int_equal(passed.trajectory.stems_hit, hits);
     for (size_t k = 0; k < i; k++) /* the rock falls: it is higher over earlier stems */
         assert_false(passed.stems[k].hit);
     return passed.stems[i];

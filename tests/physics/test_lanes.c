@@ -28,10 +28,10 @@ static const enum ceduo_kernel lanes[] = {CEDUO_KERNEL_BEST, CEDUO_KERNEL_AVX2, 
 
 /* ---- comparison ---- */
 
-static void expect_same_bits(const char *scene, const char *what, const void *a, const void *b, size_t bytes)
+static void expect_same_bits(const char *scene, const char *label, const void *a, const void *b, size_t bytes)
 {
     if (memcmp(a, b, bytes) != 0)
-        fail_msg("%s: other bits in %s", scene, what);
+        fail_msg("%s: other bits in %s", scene, label);
 }
 
 static void compare_control(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b, size_t control)
@@ -265,7 +265,7 @@ static void compare_random_scenes(uint64_t count, bool arm)
         contacts += expect_same(name, &w.def, w.first, w.rocks);
         scenes++;
     }
-    print_message("%ju scenes, %ju contacts; ways that end behind the last control and cell save %ju\n", (uintmax_t)scenes,
+    print_message("%ju scenes, %ju contacts; ending after the last control and cell saves %ju\n", (uintmax_t)scenes,
                   (uintmax_t)contacts, (uintmax_t)saved);
     ROWS(EXPECT, (saved, >, contacts / 100), (scenes, >, count * 9 / 10), (contacts, >, 500 * count));
 }
@@ -456,8 +456,8 @@ static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
                                  .context = &facets,
                                  .max_contacts = CEDUO_CONTACTS_MAX,
                                  .control = scene->controls[0].x};
-    const struct slow_way way = slow_walk(&def);
-    return way.crossing.reached ? hypot(way.crossing.vx, way.crossing.vz) : NAN;
+    const struct slow_trajectory trajectory = slow_walk(&def);
+    return trajectory.crossing.reached ? hypot(trajectory.crossing.vx, trajectory.crossing.vz) : NAN;
 }
 
 /* Trajectories are chaotic: the rounding of doubles may change one in a hundred (test_slow_walk.c). */

@@ -217,9 +217,9 @@ TEST(a_difference_by_stems_from_the_control_on_is_none)
 {
     struct ceduo_difference d = compare_trees(4, 8, 20);
     EXPECT(flat.control.x, ==, 4);
-    const struct ceduo_estimate of[] = {d.reach, d.exceed, d.energy_per_released};
+    const struct ceduo_estimate estimates[] = {d.reach, d.exceed, d.energy_per_released};
     for (size_t i = 0; i < 3; i++)
-        EXPECT_IS(of[i], (mean, 0), (se, 0), (lo, 0), (hi, 0));
+        EXPECT_IS(estimates[i], (mean, 0), (se, 0), (lo, 0), (hi, 0));
 }
 
 /* One in 20 rocks on the paper's site exceeds the energy of the second fastest: this passes, and two in 20 do not. */

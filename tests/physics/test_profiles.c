@@ -46,7 +46,7 @@ static void init_site(enum ceduo_law law, bool friction_bound)
     site.scene.simulation.law = law;
 }
 
-static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_scene *b)
+static void expect_same_trajectories(const struct ceduo_scene *a, const struct ceduo_scene *b)
 {
     LOCAL(ceduo_tracer, f) = ceduo_tracer_create(a, NULL);
     LOCAL(ceduo_tracer, g) = ceduo_tracer_create(b, NULL);
@@ -77,7 +77,7 @@ TEST(a_cut_slope_gives_the_same_trajectories_and_statistics)
         assert_int_equal(segments_inside(&fine), PAPER_SEGMENTS);
         struct ceduo_scene scene = site.scene;
         scene.slope = fine;
-        expect_same_ways(&site.scene, &scene);
+        expect_same_trajectories(&site.scene, &scene);
         struct ceduo_arrivals a = arrivals(&site.scene), b = arrivals(&scene);
         EXPECT(a.reached, ==, b.reached);
         EXPECT_SAME(a.speed, b.speed, mean, se);
@@ -98,7 +98,7 @@ TEST(a_cut_slope_keeps_spreads_and_roughness_heights)
     LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 5000);
     struct ceduo_scene scene = site.scene;
     scene.slope = fine;
-    expect_same_ways(&site.scene, &scene);
+    expect_same_trajectories(&site.scene, &scene);
 }
 
 /* Deviations from a line that a double can resolve stay: vertices moved by a nanometre, and a sliver as steep as it is
@@ -200,9 +200,8 @@ TEST(flights_land_as_without_blocks)
     EXPECT(far, >, 1000); /* chunks were passed */
 }
 
-/* Ground with teeth whose tips lie on one line but for rounding: each is as high as a flight along this line is there
- * without weight, or some last digits higher or lower. Where chunks of segments begin the ground is as deep below
- * everywhere, so that the chords of chunks are parallel to the line. */
+/* Return ground with teeth. Their tips lie on one line, each a few last digits higher or lower. The start of each chunk of
+ * segments lies at the same depth below that line, so that the chords of chunks are parallel to it. */
 static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, double fall, double top)
 {
     const size_t chunk = (size_t)1 << GROUND_BITS;
@@ -222,8 +221,8 @@ static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, 
     return s;
 }
 
-/* Whether a flight that grazes many teeth touches one is for rounding to decide; a chunk that is passed as a whole must
- * not decide it otherwise. That is what the margin of its height is for. */
+/* Rounding decides if a flight that grazes many teeth touches one. Skipping a whole chunk must not change this: the margin of
+ * the chunk's height ensures it. */
 TEST(flights_along_teeth_touch_the_same_with_blocks)
 {
     init_site(CEDUO_LAW_LUMPED, false);

@@ -12,16 +12,16 @@
 #include "full.h"
 #include "quarry_site.h"
 
-#define SITES         20
-#define VALUES        2
-#define NOINLINE_COLD 1e-4
-#define TRUE_SITES    FULL_OR(400u, 200u)
+#define SITES       20
+#define VALUES      2
+#define FALSE_ALARM 1e-4
+#define TRUE_SITES  FULL_OR(400u, 200u)
 
 /* Return how many of n successes to require if each has probability p. */
 static unsigned required_successes(unsigned n, double p)
 {
     unsigned k = 0;
-    while (gsl_cdf_binomial_P(k, p, n) < NOINLINE_COLD)
+    while (gsl_cdf_binomial_P(k, p, n) < FALSE_ALARM)
         k++;
     return k;
 }
@@ -32,8 +32,8 @@ TEST(ranges_hold_the_truth)
     for (size_t i = 0; i < SITES; i++) {
         struct ceduo_calibration a;
         double truth[QUARRY_VALUES_MAX];
-        struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = 2, .seen = 30, .rocks = 200, .steps_max = 300};
-        if (!quarry_try(&trial, truth, &a))
+        struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = 2, .observed = 30, .rocks = 200, .steps_max = 300};
+        if (!quarry_fit(&trial, truth, &a))
             continue;
         for (size_t k = 0; k < VALUES; k++) {
             const struct ceduo_fitted *p = &a.parameters[k];
@@ -60,10 +60,10 @@ TEST(observations_by_another_law_are_detected)
                                      .values = VALUES,
                                      .kinds = QUARRY_KINDS,
                                      .made_by = CEDUO_LAW_CRSP,
-                                     .seen = 200,
+                                     .observed = 200,
                                      .rocks = 200,
                                      .steps_max = 110};
-        if (!quarry_try(&trial, truth, &a))
+        if (!quarry_fit(&trial, truth, &a))
             continue;
         flagged += a.misfit;
         fits++;
@@ -89,8 +89,8 @@ TEST(on_the_true_ground_p_is_uniform)
     double p[QUARRY_KINDS][400], one[QUARRY_KINDS];
     size_t n = 0;
     for (size_t i = 0; i < TRUE_SITES; i++) {
-        struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = QUARRY_KINDS, .seen = 50, .rocks = 1000};
-        if (!quarry_look(&trial, one))
+        struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = QUARRY_KINDS, .observed = 50, .rocks = 1000};
+        if (!quarry_compare(&trial, one))
             continue;
         for (size_t k = 0; k < QUARRY_KINDS; k++)
             p[k][n] = one[k];

@@ -20,7 +20,7 @@
 static const struct line_ground talus = {.315, .835, FRICTION};
 static const double sizes[] = {.25, .5, 1, 2};
 static struct line_scene scene;
-static struct line_way way;
+static struct line_trace trace;
 
 static double radians(double degrees)
 {
@@ -36,7 +36,7 @@ static void plane(double angle, double length, double radius, enum ceduo_law law
     scene.scene.simulation.friction_bound = true;
 }
 
-static double ground_way(const struct ceduo_trajectory_segment *from, double x, double z)
+static double ground_distance(const struct ceduo_trajectory_segment *from, double x, double z)
 {
     return hypot(x - from->x, z - from->z);
 }
@@ -46,18 +46,18 @@ static double ground_way(const struct ceduo_trajectory_segment *from, double x, 
 /* Compare a roll from a release with speed v0 along the ground, up or down, with its closed form. */
 static void expect_roll(double angle, double v0, double k, double friction)
 {
-    assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
-    const struct ceduo_trajectory_segment *first = &way.pieces[0];
+    assert_int_equal(line_scene_follow(&scene, &trace), CEDUO_OK);
+    const struct ceduo_trajectory_segment *first = &trace.pieces[0];
     double pull = (v0 < 0 ? -sin(angle) : sin(angle)) - friction * cos(angle), size = v0 * v0 + 2 * G;
     double last = scene.x[1] - scene.scene.rock.diameter.mean / 2; /* within a radius of the end a rock may fly out */
     size_t up = 0;                                                 /* segments until it stops */
-    while (up < way.count && way.pieces[up].x < last && (v0 < 0 ? way.pieces[up].vx1 < 0 : true))
+    while (up < trace.count && trace.pieces[up].x < last && (v0 < 0 ? trace.pieces[up].vx1 < 0 : true))
         up++;
     EXPECT(up, >, 5);
     for (size_t i = 0; i < up; i++) {
-        const struct ceduo_trajectory_segment *p = &way.pieces[i];
+        const struct ceduo_trajectory_segment *p = &trace.pieces[i];
         assert_true(p->rolls);
-        double gained = 2 * G * ground_way(first, p->x1, p->z1) * pull / (1 + k);
+        double gained = 2 * G * ground_distance(first, p->x1, p->z1) * pull / (1 + k);
         EXPECT_NEAR(p->vx1 * p->vx1 + p->vz1 * p->vz1, v0 * v0 + gained, 1e-12 * (size + fabs(gained)));
     }
 }
@@ -77,7 +77,7 @@ TEST(a_roll_on_a_plane_loses_to_friction_alone)
                 expect_roll(b, 0, law == CEDUO_LAW_CRSP ? .4 : 0, FRICTION);
                 scene.segments[0].roughness_m = 0;
                 expect_roll(b, 0, law == CEDUO_LAW_CRSP ? .4 : 0, FRICTION);
-                assert_int_equal(way.way.end, CEDUO_LEFT_SLOPE);
+                assert_int_equal(trace.trajectory.end, CEDUO_LEFT_SLOPE);
                 scene.scene.rock.shape = CEDUO_CYLINDER; /* k = 1/2 */
                 scene.scene.rock.height = scene.scene.rock.diameter;
                 expect_roll(b, 0, law == CEDUO_LAW_CRSP ? .5 : 0, FRICTION);
@@ -120,18 +120,18 @@ TEST(the_first_contact_after_a_flight_is_an_impact)
         line_scene_init(&scene, 2, x, z, (struct line_ground){0, .5, mu}, .34, (enum ceduo_law)law);
         line_scene_release(&scene, 500, height, v0, 0, k > 0 ? v0 / .34 : 0);
         scene.scene.simulation.friction_bound = true;
-        assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
+        assert_int_equal(line_scene_follow(&scene, &trace), CEDUO_OK);
         double impulse = mu * sqrt(2 * G * height), along = v0 - impulse;
         /* crsp: the rim is now faster than the rock, and friction also takes spin, not below rolling */
         double rim = k > 0 ? fmax(v0 - impulse / k, along) : 0, u = (along + k * rim) / (1 + k);
-        assert_false(way.pieces[0].rolls);
-        assert_true(way.pieces[1].rolls);
-        expect_relative(way.pieces[1].vx, u, 1e-13);
-        assert_int_equal(way.way.end, CEDUO_AT_REST);
-        expect_relative(way.way.x - way.pieces[1].x, (1 + k) * u * u / (2 * G * mu), 1e-11);
+        assert_false(trace.pieces[0].rolls);
+        assert_true(trace.pieces[1].rolls);
+        expect_relative(trace.pieces[1].vx, u, 1e-13);
+        assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+        expect_relative(trace.trajectory.x - trace.pieces[1].x, (1 + k) * u * u / (2 * G * mu), 1e-11);
         scene.scene.simulation.friction_bound = false; /* each radius takes a share */
-        assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
-        EXPECT(way.way.x, <, 502);
+        assert_int_equal(line_scene_follow(&scene, &trace), CEDUO_OK);
+        EXPECT(trace.trajectory.x, <, 502);
     }
 }
 
@@ -146,11 +146,11 @@ TEST(the_first_contact_beyond_an_edge_is_an_impact)
         scene.segments[0].friction = 0;
         line_scene_release(&scene, 5, 0, v0, 0, k > 0 ? v0 / .34 : 0);
         scene.scene.simulation.friction_bound = true;
-        assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
+        assert_int_equal(line_scene_follow(&scene, &trace), CEDUO_OK);
         size_t flight = 0;
-        while (way.pieces[flight].rolls && flight + 2 < way.count)
+        while (trace.pieces[flight].rolls && flight + 2 < trace.count)
             flight++;
-        const struct ceduo_trajectory_segment *before = &way.pieces[flight], *after = before + 1;
+        const struct ceduo_trajectory_segment *before = &trace.pieces[flight], *after = before + 1;
         assert_true(flight > 10 && after->rolls);
         expect_relative(before->vx, v0, 1e-13);
         double impulse = mu * m * v0 * c, along = v0 * (1 + 2 * m * m) * c - impulse;
@@ -235,11 +235,11 @@ static struct worst find_worst(double speed[][ROUGH])
     return w;
 }
 
-static void note(const char *what, double degrees, struct worst w)
+static void note(const char *label, double degrees, struct worst w)
 {
     print_message("%s, %g deg: rougher ground faster by at most %.3f, factor 2 of roughness changes speed by at most %.2f, "
                   "smaller blocks faster by at most %.3f\n",
-                  what, degrees, w.rise, w.factor, w.slower);
+                  label, degrees, w.rise, w.factor, w.slower);
 }
 
 /* With the largest facets above 35 to 60 degrees, depending on the slope, a factor 2 of roughness changes speed by more than a

@@ -16,23 +16,23 @@
 
 static const int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
-static void expect_near(double got, double want)
+static void expect_near(double got, double wanted)
 {
-    if (!(fabs(got - want) <= EXACT * fabs(want)))
-        fail_msg("%.17g, not %.17g", got, want);
+    if (!(fabs(got - wanted) <= EXACT * fabs(wanted)))
+        fail_msg("%.17g, not %.17g", got, wanted);
 }
 
 /* Simulate rock 0 under a rounding mode, and everything else in the default one. */
-static void follow(const struct line_scene *s, int mode, struct line_way *way)
+static void follow(const struct line_scene *s, int mode, struct line_trace *trace)
 {
     assert_int_equal(fesetround(mode), 0);
-    enum ceduo_status status = line_scene_follow(s, way);
+    enum ceduo_status status = line_scene_follow(s, trace);
     assert_int_equal(fesetround(FE_TONEAREST), 0);
     assert_int_equal(status, CEDUO_OK);
 }
 
 static struct line_scene scene;
-static struct line_way way;
+static struct line_trace trace;
 
 /* A flight to a slope at 45 degrees: x = t and -x = 3 - g/2 t2. */
 TEST(a_flight_onto_a_slope)
@@ -41,12 +41,12 @@ TEST(a_flight_onto_a_slope)
     for (size_t m = 0; m < LENGTH(modes); m++) {
         line_scene_init(&scene, 2, x, z, (struct line_ground){.5, .8, .5}, .1, CEDUO_LAW_LUMPED);
         line_scene_release(&scene, 1, 3, 1, 0, 0);
-        follow(&scene, modes[m], &way);
+        follow(&scene, modes[m], &trace);
         double t = (1 + sqrt(1 + 2 * 9.81 * 3)) / 9.81, vz = -9.81 * t;
-        ROWS(expect_near, (way.pieces[0].seconds, t), (way.pieces[0].x1, 1 + t), (way.pieces[0].z1, -1 - t));
+        ROWS(expect_near, (trace.pieces[0].seconds, t), (trace.pieces[0].x1, 1 + t), (trace.pieces[0].z1, -1 - t));
         double along = .8 * (1 - vz) / sqrt(2), off = .5 * -(vz + 1) / sqrt(2);
-        expect_near(way.pieces[1].vx, (along + off) / sqrt(2));
-        expect_near(way.pieces[1].vz, (off - along) / sqrt(2));
+        expect_near(trace.pieces[1].vx, (along + off) / sqrt(2));
+        expect_near(trace.pieces[1].vz, (off - along) / sqrt(2));
     }
 }
 
@@ -59,8 +59,8 @@ TEST(the_shortest_facet)
             const double x[] = {0, shortest[i], 50}, z[] = {0, -shortest[i], -20};
             line_scene_init(&scene, 3, x, z, (struct line_ground){1, 1, 0}, 1, (enum ceduo_law)law);
             line_scene_release(&scene, 0, 5, 0, 0, 0);
-            assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
-            double vx = way.pieces[1].vx, vz = way.pieces[1].vz;
+            assert_int_equal(line_scene_follow(&scene, &trace), CEDUO_OK);
+            double vx = trace.pieces[1].vx, vz = trace.pieces[1].vz;
             assert_true(vx > 0);
             assert_true(vx * vx + vz * vz <= 2 * 9.81 * 5 * (1 + EXACT));
             if (law == CEDUO_LAW_LUMPED)
@@ -68,8 +68,8 @@ TEST(the_shortest_facet)
             const double wall[] = {0, -1, -20}; /* as steep as possible: a fall along it keeps all speed */
             line_scene_init(&scene, 3, x, wall, (struct line_ground){1, 1, 0}, 1, (enum ceduo_law)law);
             line_scene_release(&scene, 0, 5, 0, 0, 0);
-            assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
-            vx = way.pieces[1].vx, vz = way.pieces[1].vz;
+            assert_int_equal(line_scene_follow(&scene, &trace), CEDUO_OK);
+            vx = trace.pieces[1].vx, vz = trace.pieces[1].vz;
             assert_true(vx * vx + vz * vz <= 2 * 9.81 * 5 * (1 + EXACT));
         }
 }
@@ -83,9 +83,9 @@ TEST(the_distance_to_a_stop)
             line_scene_init(&scene, 2, x, z, (struct line_ground){.5, 1, .3}, 1, (enum ceduo_law)law);
             double k = law == CEDUO_LAW_LUMPED ? 0 : .4; /* a rolling sphere */
             line_scene_release(&scene, 10, 0, 5, 0, k > 0 ? 5 : 0);
-            follow(&scene, modes[m], &way);
-            assert_int_equal(way.way.end, CEDUO_AT_REST);
-            expect_near(way.way.x, 10 + (1 + k) * 25 / (2 * 9.81 * .3));
+            follow(&scene, modes[m], &trace);
+            assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+            expect_near(trace.trajectory.x, 10 + (1 + k) * 25 / (2 * 9.81 * .3));
         }
 }
 
@@ -93,7 +93,7 @@ TEST(the_distance_to_a_stop)
  * 1e-12. */
 TEST(the_first_contacts_on_the_slope_of_table_3)
 {
-    static struct line_way near;
+    static struct line_trace near;
     line_scene_init(&scene, PAPER_VERTICES, paper_x, paper_y, (struct line_ground){.31, .83, .5}, .34, CEDUO_LAW_CRSP);
     scene.scene.simulation.friction_bound = false; /* the golden figures belong to the published law */
     scene.segments[0].rt.mean = .87;
@@ -102,12 +102,12 @@ TEST(the_first_contacts_on_the_slope_of_table_3)
     ROWS(EXPECT_NEAR, (near.pieces[0].x1, 5.6993, 1e-4), (near.pieces[0].z1, 114.6014, 1e-4), (near.pieces[1].x1, 6.5113, 1e-4),
          (near.pieces[1].z1, 112.9774, 1e-4));
     for (size_t m = 1; m < LENGTH(modes); m++) {
-        follow(&scene, modes[m], &way);
+        follow(&scene, modes[m], &trace);
         for (size_t i = 0; i < 3; i++) {
-            ROWS(expect_near, (way.pieces[i].x, near.pieces[i].x), (way.pieces[i].z, near.pieces[i].z),
-                 (way.pieces[i].vx, near.pieces[i].vx));
+            ROWS(expect_near, (trace.pieces[i].x, near.pieces[i].x), (trace.pieces[i].z, near.pieces[i].z),
+                 (trace.pieces[i].vx, near.pieces[i].vx));
             if (near.pieces[i].vz != 0)
-                expect_near(way.pieces[i].vz, near.pieces[i].vz);
+                expect_near(trace.pieces[i].vz, near.pieces[i].vz);
         }
     }
 }
@@ -131,10 +131,10 @@ static struct ceduo_arrivals arrive(const struct ceduo_scene *s, int mode, doubl
     return a;
 }
 
-static void expect_within(const char *what, double got, double want, double error)
+static void expect_within(const char *label, double got, double wanted, double error)
 {
-    if (!(fabs(got - want) <= error))
-        fail_msg("%s: %.12g, not %.12g within %.3g", what, got, want, error);
+    if (!(fabs(got - wanted) <= error))
+        fail_msg("%s: %.12g, not %.12g within %.3g", label, got, wanted, error);
 }
 
 TEST(statistics_agree_within_their_error)

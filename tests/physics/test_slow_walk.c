@@ -53,16 +53,17 @@ static void note_piece(void *context, const struct ceduo_trajectory_segment *p)
 
 static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct trace *t)
 {
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     struct ceduo_crossing c;
     memset(t, 0, sizeof *t);
     assert_int_equal(ceduo_trajectory_run(scene, NULL, rock,
-                                          &(struct ceduo_trajectory_callbacks){.segment = note_piece, .context = t}, &way, &c),
+                                          &(struct ceduo_trajectory_callbacks){.segment = note_piece, .context = t},
+                                          &trajectory, &c),
                      CEDUO_OK);
-    t->contacts = way.contacts;
-    t->end = way.contacts > CONTACTS ? -1 : (int)way.end;
-    t->x = way.x;
-    t->z = way.z;
+    t->contacts = trajectory.contacts;
+    t->end = trajectory.contacts > CONTACTS ? -1 : (int)trajectory.end;
+    t->x = trajectory.x;
+    t->z = trajectory.z;
     t->reached = c.reached;
     memcpy(t->crossing, (double[4]){c.vx, c.vz, c.spin, c.height}, sizeof t->crossing);
 }
@@ -133,13 +134,13 @@ static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct li
                                  .max_contacts = CONTACTS,
                                  .control = scene->controls_count > 0 ? scene->controls[0].x : NAN,
                                  .on_contact = note_contact};
-    const struct slow_way way = slow_walk(&def);
-    const struct slow_crossing *c = &way.crossing;
+    const struct slow_trajectory trajectory = slow_walk(&def);
+    const struct slow_crossing *c = &trajectory.crossing;
     static const int ends[] = {[SLOW_REST] = CEDUO_AT_REST, [SLOW_LEFT] = CEDUO_LEFT_SLOPE, [SLOW_UNFINISHED] = -1};
-    t->end = ends[way.end];
-    t->contacts = t->end < 0 ? CONTACTS + 1 : way.contacts;
-    t->x = way.x;
-    t->z = way.z;
+    t->end = ends[trajectory.end];
+    t->contacts = t->end < 0 ? CONTACTS + 1 : trajectory.contacts;
+    t->x = trajectory.x;
+    t->z = trajectory.z;
     t->reached = c->reached;
     memcpy(t->crossing, (double[4]){c->vx, c->vz, c->spin, c->height}, sizeof t->crossing);
 }
@@ -307,11 +308,11 @@ static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally
     tally->excused++;
 }
 
-static void expect_agreement(const struct tally *t, const char *what)
+static void expect_agreement(const struct tally *t, const char *label)
 {
     print_message("%s: %ju rocks, %ju contacts: %ju the same, %ju apart by growth of rounding (%ju at the first contact), "
                   "%ju with no more energy than rounding, %ju sent off by rounding alone; %ju longer than %d contacts\n",
-                  what, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
+                  label, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
                   (uintmax_t)t->first_apart, (uintmax_t)t->still, (uintmax_t)t->aimless, (uintmax_t)t->cut_short, CONTACTS);
     ROWS(EXPECT, (t->same + t->excused + t->still + t->aimless, ==, t->rocks), ((double)t->same, >=, .99 * (double)t->rocks),
          ((double)t->first_apart, <=, .001 * (double)t->rocks));
@@ -340,7 +341,7 @@ TEST(sixteen_combinations_on_the_slope_of_table_3)
 }
 
 /* line_scene_random() draws the bound; here it is set for every scene. */
-static void compare_random_scenes(bool friction_bound, const char *what)
+static void compare_random_scenes(bool friction_bound, const char *label)
 {
     static struct line_scene scene;
     struct tally tally = {0};
@@ -349,7 +350,7 @@ static void compare_random_scenes(bool friction_bound, const char *what)
         scene.scene.simulation.friction_bound = friction_bound;
         compare(&scene.scene, number % 7, &tally);
     }
-    expect_agreement(&tally, what);
+    expect_agreement(&tally, label);
 }
 
 TEST(random_scenes)

@@ -27,11 +27,11 @@ static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, un
 }
 
 /* Expect agreement within four combined standard errors plus half of the last printed digit. */
-static void expect_mean(const char *what, double value, double se, double expected, double expected_se, double digit)
+static void expect_mean(const char *label, double value, double se, double expected, double expected_se, double digit)
 {
-    double most = 4 * hypot(se, expected_se) + digit / 2;
-    if (!(fabs(value - expected) <= most))
-        fail_msg("%s: %.6g ± %.3g is not %.6g ± %.3g", what, value, se, expected, expected_se);
+    double tolerance = 4 * hypot(se, expected_se) + digit / 2;
+    if (!(fabs(value - expected) <= tolerance))
+        fail_msg("%s: %.6g ± %.3g is not %.6g ± %.3g", label, value, se, expected, expected_se);
 }
 
 /* ---- Table 5 ---- */
@@ -296,10 +296,10 @@ static struct drawn draw_releases(const struct ceduo_scene *scene, uint64_t rock
     return d;
 }
 
-static void expect_moments(const char *what, const struct ceduo_moments *m, double mean, double sd)
+static void expect_moments(const char *label, const struct ceduo_moments *m, double mean, double sd)
 {
-    expect_mean(what, m->mean, ceduo_moments_se(m), mean, 0, 0);
-    expect_mean(what, ceduo_moments_sd(m), sd / sqrt(2 * (double)m->n), sd, 0, 0);
+    expect_mean(label, m->mean, ceduo_moments_se(m), mean, 0, 0);
+    expect_mean(label, ceduo_moments_sd(m), sd / sqrt(2 * (double)m->n), sd, 0, 0);
 }
 
 #define CUT_SD 0.98657839256 /* sd of the normal law truncated at three of its own: sqrt(1 - 6 phi(3)/(2 Phi(3) - 1)) */
@@ -347,7 +347,7 @@ TEST(a_lumped_rock_with_many_masses_has_its_own_energies)
 struct first_contact {
     struct ceduo_moments rn, rt;
     double vz;
-    bool seen;
+    bool done;
 };
 
 static void check_first_contact(void *context, const struct ceduo_trajectory_segment *p)
@@ -355,9 +355,9 @@ static void check_first_contact(void *context, const struct ceduo_trajectory_seg
     struct first_contact *f = context;
     if (p->contacts == 0)
         f->vz = p->vz1;
-    if (p->contacts != 1 || f->seen)
+    if (p->contacts != 1 || f->done)
         return;
-    f->seen = true;
+    f->done = true;
     ceduo_moments_add(&f->rn, p->vz / -f->vz);
     ceduo_moments_add(&f->rt, p->vx / 4);
 }
@@ -368,9 +368,9 @@ static struct first_contact first_contacts(const struct ceduo_scene *scene)
     for (uint64_t rock = 0; rock < 20000; rock++) {
         const struct ceduo_trajectory_callbacks watch = {.segment = check_first_contact, .context = &f};
         struct ceduo_trajectory w;
-        f.seen = false;
+        f.done = false;
         assert_int_equal(ceduo_trajectory_run(scene, NULL, rock, &watch, &w, NULL), CEDUO_OK);
-        assert_true(f.seen);
+        assert_true(f.done);
     }
     return f;
 }
@@ -491,12 +491,12 @@ TEST(unfinished_blocks_count_with_their_weights)
     const double *weights = ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT);
     double all = 0, squares = 0, unfinished = 0;
     for (uint64_t r = 0; r < ROCKS; r++) {
-        struct ceduo_trajectory way;
+        struct ceduo_trajectory trajectory;
         struct ceduo_crossing crossing;
-        assert_int_equal(ceduo_tracer_run(f, r, NULL, &way, &crossing), CEDUO_OK);
+        assert_int_equal(ceduo_tracer_run(f, r, NULL, &trajectory, &crossing), CEDUO_OK);
         all += weights[r];
         squares += weights[r] * weights[r];
-        unfinished += way.end == CEDUO_UNFINISHED ? weights[r] : 0;
+        unfinished += trajectory.end == CEDUO_UNFINISHED ? weights[r] : 0;
     }
     ROWS(EXPECT, (a.reached, ==, 0), (a.unfinished, >, ROCKS / 4), (a.unfinished, <, ROCKS * 3 / 4));
     EXPECT(fabs(unfinished / all - (double)a.unfinished / ROCKS), >, .01); /* weights matter */

@@ -24,7 +24,7 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
     clear_plane(520);
     plant_dorren(10, 510);
     for (SWEEP(rock, 5000)) {
-        assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
+        assert_int_equal(sweep.trajectory.end, CEDUO_LEFT_SLOPE);
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_encounter *s = &sweep.stems[i];
             double max = 1.7 * 38.7 * pow(100 * s->dbh, 2.31), u = fabs(s->y) / ((B + s->dbh) / 2);
@@ -55,7 +55,7 @@ TEST(hits_off_centre_take_their_share)
     belt->stand.u = u_J_m3;
     belt->stand.offset = CEDUO_OFFSET_BY_ECCENTRICITY;
     for (SWEEP(rock, 2000)) {
-        ends[sweep.way.end]++;
+        ends[sweep.trajectory.end]++;
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_encounter *s = &sweep.stems[i];
             double u = fabs(s->y) / ((B + s->dbh) / 2), cost = printed_share(u) * volume * u_J_m3;
@@ -123,12 +123,12 @@ TEST(a_hit_scales_speed_and_spin_with_the_remaining_energy)
         for (uint64_t rock = 0; rock < 2000; rock++) {
             if (rock == 0)
                 sweep_rock(0); /* sets the rock's mass */
-            s.radius = sweep.way.rock.radius;
-            s.mass = sweep.way.rock.mass;
-            s.moment = spins ? sweep.way.rock.moment : 0;
+            s.radius = sweep.trajectory.rock.radius;
+            s.mass = sweep.trajectory.rock.mass;
+            s.moment = spins ? sweep.trajectory.rock.moment : 0;
             s.left = NAN;
             sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.segment = after_hit, .stem = at_hit, .context = &s});
-            stopped += sweep.way.end == CEDUO_STOPPED_BY_STEMS;
+            stopped += sweep.trajectory.end == CEDUO_STOPPED_BY_STEMS;
         }
         sweep_end();
         ROWS(EXPECT, (s.hits, >, 10000), (s.checked, >=, s.hits - 2000), (stopped, >, 100));
@@ -154,13 +154,14 @@ TEST(a_control_at_a_stem_is_passed_before_the_hit)
         sweep_one(rock);
         for (size_t i = 0; i < sweep.count && i < 4; i++) {
             struct ceduo_stem_encounter stem = sweep.stems[i];
-            struct ceduo_trajectory way;
+            struct ceduo_trajectory trajectory;
             struct ceduo_crossing c;
             set_crossing(stem.x, rolls);
-            assert_int_equal(ceduo_trajectory_run(&plane.line.scene, &plane.line.option, rock, NULL, &way, &c), CEDUO_OK);
+            assert_int_equal(ceduo_trajectory_run(&plane.line.scene, &plane.line.option, rock, NULL, &trajectory, &c),
+                             CEDUO_OK);
             assert_true(c.reached);
             EXPECT(c.stems_hit, ==, i);
-            expect_exact("energy at the control", way.rock.mass / 2 * (c.vx * c.vx + c.vz * c.vz), stem.before, 1e-12);
+            expect_exact("energy at the control", trajectory.rock.mass / 2 * (c.vx * c.vx + c.vz * c.vz), stem.before, 1e-12);
         }
     }
 }
@@ -194,7 +195,7 @@ TEST(rocks_fly_over_stems_that_are_lower)
                          s->height, s->hit);
             hits += s->hit;
         }
-        if (hits != sweep.way.stems_hit || count_different(false) != sweep.way.stools_met)
+        if (hits != sweep.trajectory.stems_hit || count_different(false) != sweep.trajectory.stools_met)
             fail_msg("rock %ju: stems flown over are counted", (uintmax_t)rock);
         spread_add(&come_to, (double)sweep.count / 400);
         spread_add(&hit, (double)hits);
@@ -274,9 +275,9 @@ struct first_stem {
     double from, length, rate;
 };
 
-static double first_stem_cdf(double x, const void *of)
+static double first_stem_cdf(double x, const void *context)
 {
-    const struct first_stem *f = of;
+    const struct first_stem *f = context;
     return expm1(-f->rate * (x - f->from)) / expm1(-f->rate * f->length);
 }
 
@@ -303,13 +304,14 @@ static void expect_stopped(const char *name, uint64_t rocks)
     struct first_stem law = {10, 500, per_metre(30, B + .2)};
     for (SWEEP(rock, rocks)) {
         if (sweep.count == 0) {
-            assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
+            assert_int_equal(sweep.trajectory.end, CEDUO_LEFT_SLOPE);
             continue;
         }
         const struct ceduo_stem_encounter *s = sweep.stems;
-        if (sweep.count != 1 || sweep.way.end != CEDUO_STOPPED_BY_STEMS || sweep.way.x != s->x || s->taken != s->before)
+        if (sweep.count != 1 || sweep.trajectory.end != CEDUO_STOPPED_BY_STEMS || sweep.trajectory.x != s->x ||
+            s->taken != s->before)
             fail_msg("%s: rock %ju is not stopped at %.17g", name, (uintmax_t)rock, s->x);
-        sample_add(&stops, sweep.way.x);
+        sample_add(&stops, sweep.trajectory.x);
     }
     expect_share(named("%s, share stopped by stems", name), stops.n, rocks, -expm1(-law.rate * law.length));
     expect_law(named("%s, places, KS", name), stops.values, stops.n, first_stem_cdf, &law);

@@ -9,7 +9,7 @@
 
 /* Compared statistics: positions along and across the trajectory, gaps, and counts. */
 struct swept {
-    struct sample per_way, stools_per_way, gap, per_stool, x, y, dbh;
+    struct sample per_trajectory, stools_per_trajectory, gap, per_stool, x, y, dbh;
 };
 
 static int by_stool(const void *a, const void *b)
@@ -21,7 +21,7 @@ static int by_stool(const void *a, const void *b)
 /* Add the stems of one trajectory, in order of x. */
 static void swept_add(struct swept *s, struct map_stem *stems, size_t n)
 {
-    sample_add(&s->per_way, (double)n);
+    sample_add(&s->per_trajectory, (double)n);
     for (size_t i = 0; i < n; i++) {
         sample_add(&s->x, stems[i].x);
         sample_add(&s->y, stems[i].y);
@@ -43,17 +43,17 @@ static void swept_add(struct swept *s, struct map_stem *stems, size_t n)
         if (stems[i].shoot)
             sample_add(&s->per_stool, size);
     }
-    sample_add(&s->stools_per_way, stools);
+    sample_add(&s->stools_per_trajectory, stools);
 }
 
 static void swept_clear(struct swept *s)
 {
-    struct sample *all[] = {&s->per_way, &s->stools_per_way, &s->gap, &s->per_stool, &s->x, &s->y, &s->dbh};
+    struct sample *all[] = {&s->per_trajectory, &s->stools_per_trajectory, &s->gap, &s->per_stool, &s->x, &s->y, &s->dbh};
     for (size_t i = 0; i < LENGTH(all); i++)
         sample_clear(all[i]);
 }
 
-static void sweep_ways(struct swept *to, uint64_t rocks)
+static void sweep_trajectories(struct swept *to, uint64_t rocks)
 {
     static struct map_stem stems[STEMS_MAX];
     for (SWEEP(rock, rocks)) {
@@ -80,16 +80,16 @@ static void sweep_maps(struct swept *to, uint64_t maps, unsigned long seed)
     gsl_rng_free(rng);
 }
 
-static void expect_same_as_map(const char *name, uint64_t ways, unsigned long seed)
+static void expect_same_as_map(const char *name, uint64_t trajectories, unsigned long seed)
 {
     struct swept program = {0}, map = {0};
-    sweep_ways(&program, ways);
-    sweep_maps(&map, ways, seed);
+    sweep_trajectories(&program, trajectories);
+    sweep_maps(&map, trajectories, seed);
     const struct {
-        const char *what;
+        const char *label;
         struct sample *a, *b;
-    } pairs[] = {{"hits per way", &program.per_way, &map.per_way},
-                 {"stools and trees per way", &program.stools_per_way, &map.stools_per_way},
+    } pairs[] = {{"hits per trajectory", &program.per_trajectory, &map.per_trajectory},
+                 {"stools and trees per trajectory", &program.stools_per_trajectory, &map.stools_per_trajectory},
                  {"gaps", &program.gap, &map.gap},
                  {"hits per stool", &program.per_stool, &map.per_stool},
                  {"places", &program.x, &map.x},
@@ -97,7 +97,7 @@ static void expect_same_as_map(const char *name, uint64_t ways, unsigned long se
                  {"diameters", &program.dbh, &map.dbh}};
     for (size_t i = 0; i < LENGTH(pairs); i++) {
         if (pairs[i].a->n + pairs[i].b->n > 0)
-            expect_same_law(named("%s, %s", name, pairs[i].what), pairs[i].a, pairs[i].b);
+            expect_same_law(named("%s, %s", name, pairs[i].label), pairs[i].a, pairs[i].b);
     }
     swept_clear(&program);
     swept_clear(&map);

@@ -55,7 +55,7 @@ TEST(a_rolling_rock_meets_the_same_stems_and_continues_unchanged)
     expect_plot(&plot_rates[0], 1000, "rolling");
     assert_int_equal(ceduo_trajectory_run(&plane.line.scene, NULL, 0, NULL, &bare, NULL), CEDUO_OK);
     /* a hit leaves the remaining length R of a roll */
-    assert_int_equal(sweep.way.contacts, bare.contacts);
+    assert_int_equal(sweep.trajectory.contacts, bare.contacts);
     assert_int_equal(bare.contacts, ceil(520 / (B / 2)));
 }
 
@@ -129,7 +129,7 @@ TEST(the_probability_to_meet_no_stem_in_ten_metres_is_croftons)
     clear_plane(20);
     plant_plot(1, 5, 15);
     for (SWEEP(rock, rocks)) {
-        free_runs += sweep.way.stems_hit == 0;
+        free_runs += sweep.trajectory.stems_hit == 0;
     }
     expect_share("nothing met of those centred in 10 m", free_runs, rocks, exp(-10 / 2.16747));
     EXPECT_NEAR(exp(-10 / 2.16747), .00992, .5e-5);
@@ -143,13 +143,13 @@ static double perimeter(unsigned n, double spacing)
     return n < 2 ? 0 : n * spacing;
 }
 
-static void expect_stems_per_stool(const char *what, const struct met *m, double expected)
+static void expect_stems_per_stool(const char *label, const struct met *m, double expected)
 {
     double ratio = spread_mean(&m->stems) / spread_mean(&m->stools);
     double stems = spread_variance(&m->stems), stools = spread_variance(&m->stools);
     double both = (spread_variance(&m->sum) - stems - stools) / 2; /* covariance */
     double variance = fmax(0, stems - 2 * ratio * both + ratio * ratio * stools) / m->sum.n;
-    expect_close(what, ratio, sqrt(variance) / spread_mean(&m->stools), expected, 1e-12);
+    expect_close(label, ratio, sqrt(variance) / spread_mean(&m->stools), expected, 1e-12);
 }
 
 TEST(a_ring_is_met_at_the_mean_width_of_its_hull)
@@ -225,9 +225,9 @@ static struct biased make_biased(double mean, double sd)
     return (struct biased){mean, mean * mean / (sd * sd), sd * sd / mean};
 }
 
-static double biased_cdf(double d, const void *of)
+static double biased_cdf(double d, const void *context)
 {
-    const struct biased *l = of;
+    const struct biased *l = context;
     return (B * gsl_cdf_gamma_P(d, l->shape, l->scale) + l->mean * gsl_cdf_gamma_P(d, l->shape + 1, l->scale)) / (B + l->mean);
 }
 
@@ -298,12 +298,12 @@ TEST(diameters_without_spread_change_nothing)
         plant_plot(1, 10, 510);
         sweep_one(rock);
         size_t n = sweep.count;
-        struct ceduo_trajectory way = sweep.way;
+        struct ceduo_trajectory trajectory = sweep.trajectory;
         memcpy(plain, sweep.stems, n * sizeof *plain);
         plane.trees[0][0].dbh_sd = plane.shoots[0][0].dbh_sd = 0;
         sweep_one(rock);
         expect_same_stems(plain, n);
-        assert_memory_equal(&way, &sweep.way, sizeof way);
+        assert_memory_equal(&trajectory, &sweep.trajectory, sizeof trajectory);
         plane.trees[0][0].dbh_sd = 1e-9;
         sweep_one(rock);
         assert_int_equal(n, sweep.count);
@@ -418,13 +418,13 @@ static const struct planted *find_planted(const struct ceduo_stem_encounter *ste
 
 static void expect_one_of_those_planted(const struct ceduo_stem_encounter *stem)
 {
-    const struct planted *of = find_planted(stem);
-    assert_int_equal(stem->shoot, of->shoots);
-    if ((stem->dbh == of->stems->dbh) != (of->stems->dbh_sd == 0))
-        fail_msg("a stem of %g m where %g ± %g m were planted", stem->dbh, of->stems->dbh, of->stems->dbh_sd);
+    const struct planted *source = find_planted(stem);
+    assert_int_equal(stem->shoot, source->shoots);
+    if ((stem->dbh == source->stems->dbh) != (source->stems->dbh_sd == 0))
+        fail_msg("a stem of %g m where %g ± %g m were planted", stem->dbh, source->stems->dbh, source->stems->dbh_sd);
     assert_true(fabs(stem->y) <= (B + stem->dbh) / 2);
-    double reach = stem->shoot ? ring_reach(&of->belt->stand) * (1 + 1e-12) + 1e-12 : 0;
-    assert_true(stem->x >= of->belt->from - reach && stem->x <= of->belt->to + reach);
+    double reach = stem->shoot ? ring_reach(&source->belt->stand) * (1 + 1e-12) + 1e-12 : 0;
+    assert_true(stem->x >= source->belt->from - reach && stem->x <= source->belt->to + reach);
 }
 
 /* Expect of each stool at most its number of shoots, all in one belt, and no tree number twice. */
@@ -432,14 +432,14 @@ static void expect_whole_stools(void)
 {
     for (size_t i = 0; i < sweep.count; i++) {
         const struct ceduo_stem_encounter *p = &sweep.stems[i];
-        const struct planted *of = find_planted(p);
+        const struct planted *source = find_planted(p);
         size_t equal = 0;
         for (size_t j = 0; j < sweep.count; j++)
             if (sweep.stems[j].stool == p->stool) {
-                assert_ptr_equal(find_planted(&sweep.stems[j])->belt, of->belt);
+                assert_ptr_equal(find_planted(&sweep.stems[j])->belt, source->belt);
                 equal++;
             }
-        assert_in_range(equal, 1, p->shoot ? (size_t)ceil(per_stool(&of->belt->stand)) : 1);
+        assert_in_range(equal, 1, p->shoot ? (size_t)ceil(per_stool(&source->belt->stand)) : 1);
     }
 }
 
@@ -467,10 +467,10 @@ TEST(stems_of_random_belts_are_planted_ones)
 
 /* ---- extremes ---- */
 
-static void expect_stems_per_metre(const char *what, double expected, uint64_t rocks, double metres)
+static void expect_stems_per_metre(const char *label, double expected, uint64_t rocks, double metres)
 {
     struct met m = meet(rocks, metres);
-    expect_mean(what, &m.stems, expected);
+    expect_mean(label, &m.stems, expected);
 }
 
 TEST(extreme_stands_have_the_expected_encounters)

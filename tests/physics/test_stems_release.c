@@ -39,7 +39,7 @@ static void bins_end_rock(struct bins *b)
 }
 
 /* Expect equal means of all bins: chi-square of the means with their covariance (Hotelling 1931, many rocks). */
-static void expect_even(const char *what, const struct bins *b, double per_bin)
+static void expect_even(const char *label, const struct bins *b, double per_bin)
 {
     gsl_matrix *s = gsl_matrix_alloc(b->k, b->k);
     gsl_vector *d = gsl_vector_alloc(b->k), *x = gsl_vector_alloc(b->k);
@@ -59,7 +59,7 @@ static void expect_even(const char *what, const struct bins *b, double per_bin)
     gsl_matrix_free(s);
     gsl_vector_free(d);
     gsl_vector_free(x);
-    expect_chi_square(what, chi2, (double)b->k);
+    expect_chi_square(label, chi2, (double)b->k);
 }
 
 /* ---- ground covered twice ---- */
@@ -119,7 +119,7 @@ TEST(ground_covered_twice_has_its_stems_once)
     for (uint64_t rock = 0; rock < 2500; rock++) {
         struct cover c = {from, from, 0, 1};
         sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.segment = cover_piece, .stem = cover_stem, .context = &c});
-        assert_int_equal(sweep.way.end, CEDUO_AT_REST);
+        assert_int_equal(sweep.trajectory.end, CEDUO_AT_REST);
         ROWS(EXPECT, (c.turns, >, 10), (c.lo, >, 200), (c.lo, <, 320), (c.hi, >, 500));
         size_t after = 0;
         for (size_t i = 0; i < sweep.count; i++)
@@ -158,8 +158,8 @@ static void expect_even_court(const char *name, enum way_out out, double per_m, 
     bins.from = out == AHEAD ? RELEASE : RELEASE - reach;
     bins.k = out == AHEAD ? 32 : (size_t)(2 * reach / bins.width);
     for (SWEEP(rock, rocks)) {
-        assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
-        assert_true(out != AHEAD_AND_BACK || sweep.way.x == 0);
+        assert_int_equal(sweep.trajectory.end, CEDUO_LEFT_SLOPE);
+        assert_true(out != AHEAD_AND_BACK || sweep.trajectory.x == 0);
         for (size_t i = 0; i < sweep.count; i++)
             bins_note(&bins, sweep.stems[i].x);
         bins_end_rock(&bins);
@@ -197,14 +197,14 @@ TEST(stems_around_a_release_do_not_depend_on_the_first_direction)
         court_of_the_paper(AHEAD_AND_BACK);
         sweep_one(rock);
         expect_each_stem_once();
-        size_t n = sweep.count, met = sweep.way.stools_met;
+        size_t n = sweep.count, met = sweep.trajectory.stools_met;
         memcpy(stems, sweep.stems, n * sizeof *stems);
         assert_int_equal(met, count_different(false));
         court_of_the_paper(BACK_AND_AHEAD);
         sweep_one(rock);
         expect_each_stem_once();
         assert_int_equal(n, sweep.count);
-        assert_int_equal(met, sweep.way.stools_met);
+        assert_int_equal(met, sweep.trajectory.stools_met);
         for (size_t i = 0; i < n; i++)
             if (by_place(&stems[i], &sweep.stems[i]) != 0 || stems[i].dbh != sweep.stems[i].dbh)
                 fail_msg("rock %ju: the stem at %.17g is another", (uintmax_t)rock, stems[i].x);
@@ -221,7 +221,7 @@ TEST(a_stool_at_the_release_stays_one_after_a_long_trajectory)
     clear_court(AHEAD_AND_BACK);
     plant_plot(1, RELEASE - 6, RELEASE + 145);
     for (SWEEP(rock, rocks))
-        wrong += sweep.way.stools_met != count_different(false);
+        wrong += sweep.trajectory.stools_met != count_different(false);
     if (wrong > 0)
         fail_msg("%ju of %ju rocks count a stool twice", (uintmax_t)wrong, (uintmax_t)rocks);
 }

@@ -94,14 +94,14 @@ static struct pair_moments read_pairs(const struct ceduo_option *a, const struct
     return m;
 }
 
-static void expect_pair(const char *what, const struct ceduo_estimate *d, const struct ceduo_moments *m, double a, double b)
+static void expect_pair(const char *label, const struct ceduo_estimate *d, const struct ceduo_moments *m, double a, double b)
 {
-    print_message("# %s: %.6g ± %.3g\n", what, d->mean, d->se);
+    print_message("# %s: %.6g ± %.3g\n", label, d->mean, d->se);
     if (fabs(d->mean - (a - b)) > 1e-12 * (fabs(a) + fabs(b)))
-        fail_msg("%s: %.17g is not %.17g", what, d->mean, a - b);
+        fail_msg("%s: %.17g is not %.17g", label, d->mean, a - b);
     if (fabs(d->mean - m->mean) > 1e-12 * (fabs(a) + fabs(b)))
-        fail_msg("%s: %.17g is not %.17g, rock by rock", what, d->mean, m->mean);
-    expect_exact(what, d->se, ceduo_moments_se(m), 1e-9);
+        fail_msg("%s: %.17g is not %.17g, rock by rock", label, d->mean, m->mean);
+    expect_exact(label, d->se, ceduo_moments_se(m), 1e-9);
 }
 
 TEST(differences_have_the_error_of_differences_rock_by_rock)
@@ -157,11 +157,11 @@ TEST(an_aborted_rock_has_reached_earlier_controls)
         struct ceduo_arrivals a = read_arrivals(run, 0);
         EXPECT_IS(a, (reached, ROCKS), (unfinished, 0));
         assert_int_equal(read_ends(run).count[CEDUO_UNFINISHED], ROCKS);
-        struct ceduo_trajectory way;
+        struct ceduo_trajectory trajectory;
         struct ceduo_crossing c;
-        assert_int_equal(ceduo_trajectory_run(&plane.line.scene, &plane.line.option, 0, NULL, &way, &c), CEDUO_OK);
-        EXPECT_IS(way, (end, CEDUO_UNFINISHED), (contacts, contact));
-        ROWS(EXPECT, (way.x, >, 10000), (way.x, <, 20000), (way.z, >, 2));
+        assert_int_equal(ceduo_trajectory_run(&plane.line.scene, &plane.line.option, 0, NULL, &trajectory, &c), CEDUO_OK);
+        EXPECT_IS(trajectory, (end, CEDUO_UNFINISHED), (contacts, contact));
+        ROWS(EXPECT, (trajectory.x, >, 10000), (trajectory.x, <, 20000), (trajectory.z, >, 2));
         assert_true(c.reached);
     }
 }
@@ -176,11 +176,11 @@ TEST(an_aborted_rock_has_reached_the_end_of_its_roll)
     trees->group = 200;
     trees->group_radius = 100;
     sweep_one(0);
-    EXPECT_IS(sweep.way, (end, CEDUO_UNFINISHED), (stems_hit, sweep.count));
-    double before = fmax(sweep.stems[sweep.count - 1].x, (double)(sweep.way.contacts - 1) * (B / 2));
-    ROWS(EXPECT, (before, >, 10000), (sweep.way.x, >, before + 1e-6), (sweep.way.x, <, before + B / 2));
+    EXPECT_IS(sweep.trajectory, (end, CEDUO_UNFINISHED), (stems_hit, sweep.count));
+    double before = fmax(sweep.stems[sweep.count - 1].x, (double)(sweep.trajectory.contacts - 1) * (B / 2));
+    ROWS(EXPECT, (before, >, 10000), (sweep.trajectory.x, >, before + 1e-6), (sweep.trajectory.x, <, before + B / 2));
     plane.line.scene.controls_count = 1;
-    plane.line.control = (struct ceduo_control){.x = (before + sweep.way.x) / 2, .accepted = NAN, .measured_speed = NAN};
+    plane.line.control = (struct ceduo_control){.x = (before + sweep.trajectory.x) / 2, .accepted = NAN, .measured_speed = NAN};
     LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, 1, 1);
     EXPECT_IS(read_arrivals(run, 0), (reached, 1), (unfinished, 0));
 }
@@ -211,9 +211,9 @@ TEST(stems_hit_by_blocks)
         LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&site.scene, &sides.options[0]);
         double all = 0, reached = 0, sum = 0, mean = 0, ww = 0, wx = 0, xx = 0;
         for (uint64_t rock = 0; rock < ROCKS; rock++) {
-            struct ceduo_trajectory way;
+            struct ceduo_trajectory trajectory;
             struct ceduo_crossing c;
-            assert_int_equal(ceduo_tracer_run(f, rock, NULL, &way, &c), CEDUO_OK);
+            assert_int_equal(ceduo_tracer_run(f, rock, NULL, &trajectory, &c), CEDUO_OK);
             own[rock] = c.reached ? (double)c.stems_hit : NAN;
             all += w[rock];
             reached += c.reached ? w[rock] : 0;
@@ -306,7 +306,7 @@ TEST(stems_that_take_nothing_do_not_change_the_trajectory)
     }
     ceduo_tracer_free(f);
     ceduo_tracer_free(bare);
-    print_message("# %ju of %ju ways the same\n", (uintmax_t)same, (uintmax_t)rocks);
+    print_message("# %ju of %ju trajectories equal\n", (uintmax_t)same, (uintmax_t)rocks);
     EXPECT(same, >, rocks * 98 / 100); /* rounding turns some elsewhere */
     expect_mean("stems per metre of ADS 1 on the paper's site", &met[0], per_metre(9076, B + .061));
     expect_mean("stems per metre of ADS 2 on the paper's site", &met[1], per_metre(4641, B + .047));

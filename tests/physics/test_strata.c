@@ -67,7 +67,7 @@ TEST(logs_are_met_as_buffons_needles)
     belt->stand.logs.diameter = .9; /* below the height of the rock */
     sweep_one(1);
     EXPECT(sweep.count, >, 0);
-    EXPECT(sweep.way.stems_hit, ==, 0);
+    EXPECT(sweep.trajectory.stems_hit, ==, 0);
 }
 
 /* In the index they are separate strata in every form of the ADC; poisson takes the same energy; the lights ignore them. */
@@ -174,10 +174,10 @@ TEST(free_runs_past_groups)
             free_rocks += n == 0;
             spread_add(&met, (double)n);
         }
-        const char *what = named("%u trees in %g m, flown", c->n, c->radius);
-        expect_share(what, free_rocks, rocks, wanted);
-        expect_mean(what, &met, c->threshold * per_metre(c->per_ha, B + TREE));
-        expect_close(what, spread_variance(&met), spread_variance_se(&met), spread_variance(&drawn),
+        const char *label = named("%u trees in %g m, flown", c->n, c->radius);
+        expect_share(label, free_rocks, rocks, wanted);
+        expect_mean(label, &met, c->threshold * per_metre(c->per_ha, B + TREE));
+        expect_close(label, spread_variance(&met), spread_variance_se(&met), spread_variance(&drawn),
                      spread_variance_se(&drawn));
     }
     gsl_rng_free(rng);
@@ -207,7 +207,7 @@ TEST(groups_keep_to_their_belt)
         spread_add(&first, (double)a / 2);
         spread_add(&last, (double)b / 2);
         spread_add(&all, (double)sweep.count / 30);
-        assert_int_equal(sweep.way.stools_met, sweep.count); /* each tree is single */
+        assert_int_equal(sweep.trajectory.stools_met, sweep.count); /* each tree is single */
         assert_int_equal(count_different(false), sweep.count);
     }
     ROWS(expect_mean, ("per metre", &all, per_metre(400, B + TREE)),
@@ -219,15 +219,15 @@ TEST(groups_keep_to_their_belt)
 /* Groups around the release: equally many trees above and below, whichever way the rock goes. */
 TEST(groups_stand_around_the_release)
 {
-    for (int way = -1; way <= 1; way += 2) {
+    for (int direction = -1; direction <= 1; direction += 2) {
         struct spread met = {0};
         clear_plane(120);
         plant_groups(10, 110, 400, 5, 6);
-        line_scene_release(&plane.line, 60, 1, way * 1200., 0, 0);
+        line_scene_release(&plane.line, 60, 1, direction * 1200., 0, 0);
         for (SWEEP(number, 10000)) {
             size_t n = 0;
             for (size_t i = 0; i < sweep.count; i++) {
-                double on = (sweep.stems[i].x - 60) * way;
+                double on = (sweep.stems[i].x - 60) * direction;
                 EXPECT(on, >=, 0);
                 n += on < 8;
             }
@@ -241,7 +241,7 @@ TEST(groups_stand_around_the_release)
     line_scene_release(&plane.line, 60, 1, -1200, 0, 0);
     struct spread met = {0};
     for (SWEEP(number, 300)) {
-        EXPECT(sweep.way.end, ==, CEDUO_LEFT_SLOPE);
+        EXPECT(sweep.trajectory.end, ==, CEDUO_LEFT_SLOPE);
         spread_add(&met, (double)sweep.count / 50);
     }
     expect_mean("per metre behind the release, dense", &met, per_metre(1e5, B + TREE));

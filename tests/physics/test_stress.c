@@ -32,7 +32,7 @@ static int by_design; /* floating-point exceptions that are allowed */
 /* ---- one scene ---- */
 
 struct result {
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     struct ceduo_crossing crossing;
 };
 
@@ -49,7 +49,7 @@ static void follow(const struct line_scene *s, uint64_t rock, struct result *r)
     LOCAL(ceduo_tracer, follower) = ceduo_tracer_create(&s->scene, NULL);
     assert_non_null(follower);
     feclearexcept(FE_ALL_EXCEPT);
-    enum ceduo_status status = ceduo_tracer_run(follower, rock, NULL, &r->way, &r->crossing);
+    enum ceduo_status status = ceduo_tracer_run(follower, rock, NULL, &r->trajectory, &r->crossing);
     int raised = fetestexcept(RAISED) & ~by_design;
     assert_int_equal(status, CEDUO_OK);
     if (raised)
@@ -64,10 +64,10 @@ static struct ceduo_trajectory expect_the_same_again(const struct line_scene *s,
     struct result a, b;
     follow(s, rock, &a);
     follow(s, rock, &b);
-    EXPECT_SAME(a.way, b.way, end, contacts, x, z);
+    EXPECT_SAME(a.trajectory, b.trajectory, end, contacts, x, z);
     const struct ceduo_crossing *c = &a.crossing, *d = &b.crossing;
     EXPECT_SAME(*c, *d, reached, vx, vz, spin, height);
-    return a.way;
+    return a.trajectory;
 }
 
 /* True if two trajectories are equal within rounding. */
@@ -150,7 +150,7 @@ TEST(random_scenes)
         ROWS(EXPECT, (t.flights, >, 4 * scenes), (t.impacts, >, scenes), (t.ends[CEDUO_AT_REST], >, scenes / 10),
              (t.ends[CEDUO_LEFT_SLOPE], >, scenes / 10), (t.crossed, >, scenes / 10), (of_arm.crossed, >, scenes / 40));
     print_message("%ju scenes: %ju at rest, %ju left, %ju unfinished (%ju may last, %ju sink in a crack), %ju contacts; "
-                  "%ju ways part where nobody looks on\n",
+                  "%ju trajectories differ without callbacks\n",
                   (uintmax_t)scenes, (uintmax_t)t.ends[CEDUO_AT_REST], (uintmax_t)t.ends[CEDUO_LEFT_SLOPE],
                   (uintmax_t)t.ends[CEDUO_UNFINISHED], (uintmax_t)t.lasting, (uintmax_t)t.cracks, (uintmax_t)t.contacts,
                   (uintmax_t)parted);
@@ -374,7 +374,7 @@ TEST(rebounds_without_end)
     release(5, 2, 0, 0);
     struct result r;
     follow(&s, 0, &r);
-    EXPECT_IS(r.way, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 5));
+    EXPECT_IS(r.trajectory, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 5));
 }
 
 /* Random scenes in which a rock bounces in a crack of 12 or 42 micrometres, or of 8 nanometres. It hops along one wall at

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shipped check of the law arm: on one ground the stops of three blocks of different shape at Tschamut are as they were
- * seen, and without their shapes they are not. */
+/* Validation of the law arm at Tschamut: one ground fits the observed stops of three blocks of different shape. Without their
+ * shapes it does not. */
 #include "expect.h"
 
 #include "ceduo/calibrate.h"
@@ -26,35 +26,35 @@ static int free_scene(void **state)
     return 0;
 }
 
-/* Distances and mean stops of the blocks as `seen` has them. */
-static void look(const struct ceduo_observation *seen, double distance[BLOCKS], double mean[BLOCKS])
+/* Set the distances and mean stops of the blocks. */
+static void compare_stops(const struct ceduo_observation *observed, double distance[BLOCKS], double mean[BLOCKS])
 {
     struct ceduo_observer *observer;
-    assert_int_equal(ceduo_observer_create(seen, BLOCKS, &observer), CEDUO_OK);
+    assert_int_equal(ceduo_observer_create(observed, BLOCKS, &observer), CEDUO_OK);
     for (size_t b = 0; b < BLOCKS; b++) {
         double *values;
         size_t n;
         assert_int_equal(ceduo_observer_values(observer, &file.scene, b, ROCKS, &values, &n), CEDUO_OK);
-        distance[b] = stops_distance(&seen[b], values, n, &mean[b]);
+        distance[b] = stops_distance(&observed[b], values, n, &mean[b]);
         free(values);
     }
     ceduo_observer_free(observer);
 }
 
-TEST(one_ground_gives_all_three_blocks)
+TEST(one_ground_fits_three_blocks)
 {
     double distance[BLOCKS], mean[BLOCKS];
     assert_int_equal(file.observations_count, BLOCKS);
     const size_t counts[BLOCKS] = {29, 25, 26}; /* Volkwein and Gerber 2018 */
-    look(file.observations, distance, mean);
+    compare_stops(file.observations, distance, mean);
     for (size_t b = 0; b < BLOCKS; b++) {
         EXPECT(file.observations[b].n, ==, counts[b]);
-        EXPECT(distance[b], <, stops_band(counts[b]));
+        EXPECT(distance[b], <, stops_critical_distance(counts[b]));
     }
 }
 
-/* Every block a sphere of the same mean diameter: all stop at one place. */
-TEST(without_its_shape_the_plate_goes_too_far)
+/* Spheres of the same mean diameter all stop at one place. */
+TEST(a_plate_simulated_as_a_sphere_goes_too_far)
 {
     struct ceduo_observation round[BLOCKS];
     struct ceduo_rock_def rocks[BLOCKS];
@@ -66,8 +66,8 @@ TEST(without_its_shape_the_plate_goes_too_far)
         rocks[b].diameter = ceduo_number(ceduo_rock_mean(rock).mean_diameter);
         round[b].rock = &rocks[b];
     }
-    look(round, distance, mean);
-    EXPECT(distance[2], >, 2 * stops_band(round[2].n));
+    compare_stops(round, distance, mean);
+    EXPECT(distance[2], >, 2 * stops_critical_distance(round[2].n));
     EXPECT_NEAR(mean[2], mean[0], 1.5);
 }
 

@@ -114,10 +114,10 @@ static struct ceduo_years *simulate_years(unsigned first, unsigned last, unsigne
 
 /* ---- equal bits ---- */
 
-static void expect_same(const char *what, double a, double b)
+static void expect_same(const char *label, double a, double b)
 {
     if (memcmp(&a, &b, sizeof a) != 0 && !(isnan(a) && isnan(b)))
-        fail_msg("%s: %.17g is not %.17g", what, a, b);
+        fail_msg("%s: %.17g is not %.17g", label, a, b);
 }
 
 /* Compare numbers of the same members in two structs bit by bit. */
@@ -326,9 +326,9 @@ static void add_year(struct by_hand *to, const struct ceduo_years *years, size_t
     assert_non_null(f);
     for (uint64_t r = 0; r < SUMMED; r++) {
         struct ceduo_crossing at[CONTROLS];
-        struct ceduo_trajectory way;
-        assert_int_equal(ceduo_tracer_run(f, r, NULL, &way, at), CEDUO_OK);
-        double energy = at[c].reached ? read_energy(&way.rock, &at[c]) : 0;
+        struct ceduo_trajectory trajectory;
+        assert_int_equal(ceduo_tracer_run(f, r, NULL, &trajectory, at), CEDUO_OK);
+        double energy = at[c].reached ? read_energy(&trajectory.rock, &at[c]) : 0;
         bool above = at[c].reached && energy > accepted;
         reach += at[c].reached;
         exceed += above;
@@ -428,10 +428,10 @@ TEST(years_of_blocks)
             }
         }
     }
-    for (int of = 0; of < 3; of++) { /* each of the two, and their difference */
+    for (int which = 0; which < 3; which++) { /* each of the two, and their difference */
         double w1 = 0, x1 = 0, ww = 0, wx = 0, xx = 0, x[FEW];
         for (size_t r = 0; r < FEW; r++) {
-            x[r] = weights[r] * (of < 2 ? marks[of][r] : marks[0][r] - marks[1][r]);
+            x[r] = weights[r] * (which < 2 ? marks[which][r] : marks[0][r] - marks[1][r]);
             w1 += weights[r] / FEW;
             x1 += x[r] / FEW;
         }
@@ -440,8 +440,8 @@ TEST(years_of_blocks)
             wx += (weights[r] - w1) * (x[r] - x1);
             xx += (x[r] - x1) * (x[r] - x1);
         }
-        struct ceduo_estimate found = of < 2 ? ceduo_years_summarize(years[of], years[of]->last_control).exceed
-                                             : ceduo_years_difference(years[0], years[1]);
+        struct ceduo_estimate found = which < 2 ? ceduo_years_summarize(years[which], years[which]->last_control).exceed
+                                                : ceduo_years_difference(years[0], years[1]);
         EXPECT_NEAR(found.mean, x1 / w1, 1e-12);
         EXPECT_NEAR(found.se, sqrt((xx - wx * wx / ww) / FEW / (FEW - 1)) / w1, 1e-12);
         EXPECT(fabs(found.mean), >, 0);

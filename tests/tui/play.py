@@ -114,7 +114,7 @@ class Screen:
     @property
     def title(self):
         """Return the names of the views, and the scene's title next to them or above the figures."""
-        beside = re.search(r" 8 .*\S {3,}\S", self.lines[0])
+        beside = re.search(r" 8 \S+ +\S", self.lines[0])
         return self.lines[0] if beside else f"{self.lines[0]}\n{self.cut(self.width - self.side + 1, self.width)[0]}"
 
     @property

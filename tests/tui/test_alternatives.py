@@ -39,7 +39,7 @@ def choose(shape):
     return "find rock.shape\nkey Enter Home " + " ".join(["Down"] * SHAPES.index(shape)) + " Enter"
 
 
-def mass_of(screen):
+def read_mass(screen):
     return float(re.search(r"Rock +\S+ m, +(\S+) kg", screen.now).group(1))
 
 
@@ -59,7 +59,7 @@ def test_every_shape():
             expect_equal(undone.now, before.now, f"figures after u, from {new} back to {old}")
             if {old, new} == {"ellipsoid", "block"}:
                 continue  # equal sizes fit both
-            expect_near(mass_of(after), mass_of(before), 0.02 * mass_of(before), f"{old} to {new}: mass")
+            expect_near(read_mass(after), read_mass(before), 0.02 * read_mass(before), f"{old} to {new}: mass")
             expect_in("set for the same volume: ", said, f"{old} to {new}")
             for name in wanted[new]:
                 expect_in(name.split("_")[0], said, f"{old} to {new}")
@@ -88,7 +88,7 @@ def test_shape_mass():
     """A mass stays the rock's mass in another shape."""
     before, after, _, _, line = edited("{shape: cylinder, diameter_m: 0.5, height_m: 0.5, mass_kg: 300}", choose("sphere"))
     expect("mass_kg" not in line and "density_kg_m3: 3056" in line, line)
-    expect_near(mass_of(after), mass_of(before), 3, "mass")
+    expect_near(read_mass(after), read_mass(before), 3, "mass")
     before, after, _, _, line = edited("{mass_kg: 300, density_kg_m3: 2500}", choose("block"))
     expect("mass_kg: 300" in line and "density" not in line and "axes_m: [0.493, 0.493, 0.493]" in line, line)
     screen = said_by("{diameter_m: {mean: 0.8, spread: 0.1}}", choose("cylinder"))
@@ -125,7 +125,7 @@ def test_mass_or_density():
     _, after, undone, said, line = edited(rock, keys)
     expect_equal(said, "removed: density", "what is said")
     expect("mass_kg: 300" in line and "density" not in line, line)
-    expect_equal(mass_of(after), 300, "kg")
+    expect_equal(read_mass(after), 300, "kg")
     expect_equal(undone.row("^density")[-1], "2600", "after u")
     _, _, _, _, line = edited(rock.replace("density_kg_m3: 2600", "mass_kg: 300"), "find rock.density_kg_m3\nset 2700")
     expect("density_kg_m3: 2700" in line and "mass" not in line, line)

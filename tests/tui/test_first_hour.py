@@ -101,7 +101,7 @@ QUESTIONS = (
      r"In years 1 to 25 'selection-coppice-cut' lets the fewest dangerous rocks through, as it does today"),
     ("what wood it costs", "four-systems", "key 5", "body", r"m³/y\b[^$]*large\S+rves +\S+ .* 3\.7"),
     ("how many must stay", "", "key 2 /\ntype trees\nkey Enter f Down Down Enter Enter Enter Enter Enter", "note",
-     r"no value from 75 to 7500 reaches the goal; nearest: 7500, .* [\d.]+ % \(at most 5 % is wanted\)"),
+     r"no value from 75 to 7500 reaches the goal; nearest: 7500, .* [\d.]+ % \(goal: at most 5 %\)"),
     ("the year after the cut", "four-systems", "key 6", "now", r"Year 1, just cut .*above 50 kJ +8\d\d"),
     ("my own slope", "", "key n Enter\ntype line\nkey " + "Enter " * 8, "body", r"1 +15 +99 "),
     ("my own stand", "", "key 2 c\n" + PLOT.replace("\n    key 6", ""), "body", r"Stand of belt 1: sample plot"),

@@ -16,7 +16,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, home  # noqa: E402
 from test_terminal import ASAN, Tmux, until  # noqa: E402
-from harness import CEDUO, Suite, expect, expect_equal, expect_in, tests_of  # noqa: E402
+from harness import CEDUO, Suite, expect, expect_equal, expect_in, list_tests  # noqa: E402
 
 ON, OFF = b"\x1b[?2004h", b"\x1b[?2004l"
 
@@ -367,7 +367,7 @@ def test_asked_again():
 def main():
     os.environ.pop("TMUX", None)
     suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
+    suite.run(list_tests(sys.modules[__name__]))
     suite.end()
 
 

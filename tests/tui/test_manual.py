@@ -15,16 +15,16 @@ PAGE = (ROOT / "man/ceduo-terminal.7").read_text()
 OTHER_KEYS = {"Space", "Backspace", "Ctrl-U", "Ctrl-C", "Ctrl-Z"}
 
 
-def plain(text):
+def render_word(text):
     """Return a word of mdoc as its reader sees it."""
     return text.replace("\\(S3", "³").replace("\\&", "").replace("\\-", "-").replace("\\~", " ")
 
 
 def quoted(part):
-    return [plain(word) for word in re.findall(r"^\.Ql (.*?)(?: [.,;:])?$", part, re.M)]
+    return [render_word(word) for word in re.findall(r"^\.Ql (.*?)(?: [.,;:])?$", part, re.M)]
 
 
-def part_of(first, last):
+def page_part(first, last):
     begin = PAGE.index(first)
     return PAGE[begin:PAGE.index(last, begin)]
 
@@ -42,7 +42,7 @@ def test_smallest_window():
 def test_heads():
     """Quoted texts of the manual are on the screen: heads of view 5, of the column on the right, its last line"""
     small, large, begun = fast("resize 80 24\nkey 5\nwait idle\ndump\nresize 160 50\ndump\nkey 3 +\ndump", "rotation")
-    table = quoted(part_of(".It 5 compare", ".It 6 rotation"))
+    table = quoted(page_part(".It 5 compare", ".It 6 rotation"))
     expect_equal(table[:5], ["today", "mean", "worst", "fail", "m³/y"])
     head = next(line for line in small.body.split("\n") if "today" in line)
     for word in table[:4]:
@@ -51,7 +51,7 @@ def test_heads():
     for word in set(table) - {"best"}:  # which no option is
         expect_in(word, head, "the head of the table in 160 columns")
     expect(re.search(r"\d worst ", large.body), large)
-    column = quoted(part_of("The column on the right is the same in every view", "Ss Editing"))
+    column = quoted(page_part("The column on the right is the same in every view", "Ss Editing"))
     expect_equal(column, ["computing", "finished"])
     for screen in (small, large):
         expect_in("finished", screen.now, "the column on the right")
@@ -72,7 +72,7 @@ def test_keys():
     named = set()
     for line in re.findall(r"^(?:\.It )?\.?Ic (.*)$", PAGE, re.M):
         line = re.sub(r" [.,;:]$", "", line)
-        named |= {plain(word.removeprefix("Ic ")) for word in re.split(r" , ", line)}
+        named |= {render_word(word.removeprefix("Ic ")) for word in re.split(r" , ", line)}
     expect_equal(sorted(named - table - OTHER_KEYS), [], "keys of the manual that the program has not")
     expect_equal(sorted(table - named), [], "keys of the program that the manual has not")
 

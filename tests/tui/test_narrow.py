@@ -15,7 +15,7 @@ WORD = re.compile(r"[^\W\d_²³]+")
 SIGNS = "…~"
 
 
-def words_of(sources):
+def find_words(sources):
     return {word.lower() for text in sources for word in WORD.findall(text)}
 
 
@@ -24,7 +24,7 @@ def vocabulary():
     strings = [re.sub(r"\\x[0-9a-f]{2}|\\n|%[-+.*0-9]*(?:ll|z)?[a-z]", " ", string) for path in ROOT.glob("src/**/*.[ch]")
                for string in re.findall(r'"((?:[^"\\]|\\.)*)"', path.read_text())]
     files = [f"{path.stem} {path.read_text()}" for path in ROOT.glob("profiles/**/*.yaml")]
-    return words_of(strings + files)
+    return find_words(strings + files)
 
 
 def foreign(screen, known):
@@ -37,7 +37,7 @@ def foreign(screen, known):
 def check(scene, keys):
     known = vocabulary()
     with Place() as place:
-        known |= words_of([place.text(name) for name in ("cuts.yaml", "fast.yaml")] + ["cuts fast wood options play yaml txt"])
+        known |= find_words([place.text(name) for name in ("cuts.yaml", "fast.yaml")] + ["cuts fast wood options play yaml txt"])
         script = "".join(f"{key}\n" + "".join(f"resize {width} {height}\nkey Ctrl-L\ndump\n" for width, height in SIZES) for key in keys)
         screens = place.play("wait idle\n" + script, scene)
     expect(len(screens) == len(keys) * len(SIZES), len(screens))

@@ -135,7 +135,7 @@ def test_compare_marks():
 
 
 def test_worst_overlaps():
-    """Of two options whose shares over the years overlap none is called the worst."""
+    """If the shares over the years of two options overlap, neither is called the worst."""
     hardly = """  - name: hardly any
     forest:
       - {from_m: 5, to_m: 80, stand: {name: one, species: ostrya-carpinifolia, energy: {model: brauner, u_J_m3: 100000},

@@ -81,7 +81,7 @@ def test_leads_to_the_field():
     expect(screen.note.startswith("from, m: where the belt begins"), screen.note)
 
 
-def shown(screen):
+def read_axis(screen):
     """Return the metres at the ends of the picture's axis."""
     line = next(line for line in reversed(screen.body.split("\n")) if re.fullmatch(r" *\d[\d m.]*", line) and " m" in line)
     numbers = [float(n) for n in re.findall(r"[\d.]+", line)]
@@ -93,12 +93,12 @@ def test_zoom():
     whole, *nearer, back, end = land("wait idle\nkey Tab Tab Down\ndump\n" + "key z\ndump\n" * 3 + "key Z Z Z\ndump\nkey Z\ndump")
     widths = []
     for screen, half in zip((whole, *nearer), (60, 25, 12.5, 6.25)):
-        lo, hi = shown(screen)
+        lo, hi = read_axis(screen)
         expect(60 - half <= lo <= 60 <= hi <= 60 + half or screen is whole, f"{lo} to {hi} m", screen)
         widths.append(hi - lo)
         expect("heights drawn" not in screen.body, "true to scale", screen)
     expect(all(b < 0.7 * a for a, b in zip(widths, widths[1:])), widths)
-    expect_equal(shown(back), shown(whole), "after Z three times")
+    expect_equal(read_axis(back), read_axis(whole), "after Z three times")
     expect_equal(end.note, "this is the whole slope", "once more")
     last = land("wait idle\n" + "key z\n" * 8 + "dump")[0]
     expect_equal(last.note, "maximum zoom", "z eight times")

@@ -209,7 +209,7 @@ def test_thin_shoots():
     year, just_cut = option["years"][11], option["years"][1]
     expect_equal([just_cut["controls"][0]["lights"][k] for k in ("contact", "free_run")], ["fail", "fail"], "shoots of a year")
     expect_equal((option["rotation"]["unprotected_contact"], option["rotation"]["unprotected_contact_8cm"]), (10, 25))
-    expect_in("From 8 cm on: contact 25, free run 25.", flat(screens[0]))
+    expect_in("If only stems from 8 cm on count: contact 25, free run 25.", flat(screens[0]))
     expect_equal([year["controls"][0]["lights"][k] for k in ("contact", "contact_8cm")], ["pass", "fail"], "the scene tells nothing")
     expect_equal(screens[0].lights()["Contact"], "passes")
     counted = result("-s", "simulation.contact_dbh_m=0.08", "--years", "-n", 100, "rotation")["options"][0]["years"][2]
@@ -227,7 +227,7 @@ def test_small_window():
 
 
 def test_no_stems():
-    """Without stems view 6 says so instead of a distance between hits, and view 4 for a belt; 100 % has no decimals"""
+    """Without stems view 6 reports it instead of a distance between hits, as view 4 does for a belt; 100 % has no decimals"""
     with Place() as place:
         place.write("bare.yaml", INDEX[:INDEX.index("forest:")] + "forest: [{from_m: 2, to_m: 38, stand: {system: bare}}]\n")
         years, belts = place.play("wait idle\nkey 6\nwait idle\nresize 80 24\nkey Tab\ndump\nkey Tab 4\ndump",
@@ -253,7 +253,7 @@ def test_figures():
               f"(year {rotation['worst_year']}).", text)
     expect_in(f"Yield {option['yield']['cut_m3_ha_per_year']:.2g} m³ per ha and year.", text)
     expect_in(f"mean {1000 * rotation['exceed_probability']['mean']:.0f} ±", text)
-    expect_in(f"Expected a year: {digits(rotation['reach_per_year'], 2)} pass, {digits(rotation['exceed_per_year'], 2)} with too much",
+    expect_in(f"Expected per year: {digits(rotation['reach_per_year'], 2)} rocks pass, {digits(rotation['exceed_per_year'], 2)} with too much",
               text)
     for screen, year in ((screens[0], years[0]), (screens[1], years[3])):
         number, cut, adc = year_said(screen)
@@ -354,7 +354,7 @@ def test_live_rate():
         set 200
         wait idle
         dump""", "wood.yaml")
-    passes = [float(re.search(r"Expected a year: (\S+) pass", flat(s)).group(1)) for s in screens]
+    passes = [float(re.search(r"Expected per year: (\S+) rocks pass", flat(s)).group(1)) for s in screens]
     expect(abs(passes[1] - 100 * passes[0]) <= 0.06 * passes[1], f"{passes}: 100 times the rocks")
 
 
@@ -437,7 +437,7 @@ def test_no_forest():
     for screen in screens:
         screen.whole()
     expect_equal([c for _, c in marks(screens[2], "C")], ["✘"], "contact")
-    expect_in("'current' does not change: no stem stands in it.", flat(screens[2]))
+    expect_in("'current' does not change: it has no stems.", flat(screens[2]))
 
 
 def test_index_view():
@@ -482,7 +482,7 @@ def test_find():
         check_good(place.path, "reserves.yaml")
     popup, found, undone, _ = screens
     for part in ("per hectare, trees 1, belt 1", "mean distance between hits below … m (ADC)", "probability of a free run at most … %",
-                 "at most … per 1000 exceed accepted_kJ", "at most … per 1000 arrive", "mean energy of arrivals", "u undoes"):
+                 "at most … per 1000 exceed the limit", "at most … per 1000 arrive", "mean energy of arrivals", "u undoes"):
         expect_in(part, popup.popup, "the question")
     expect_equal(re.findall(r"(?:from|to) +(\d+)", popup.popup), ["6", "600"], "the range that is offered")
     expect_equal(found.row(r"^1 +379")[:2], ["1", "379"])

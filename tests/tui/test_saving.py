@@ -11,7 +11,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, check_good, fast, run_script  # noqa: E402
 from harness import PROFILES, Skip, expect, expect_equal, expect_in, expect_near, results, run_all  # noqa: E402
-from test_editing import index_of  # noqa: E402
+from test_editing import read_index  # noqa: E402
 
 EDIT = "key 2\nkey /\nkey Ctrl-U\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
 STUCK = "stuck.yaml"
@@ -446,7 +446,7 @@ def test_export_command():
         arrivals = control["wooded"], control["bare"]
         expect_equal(screen.pair("arrive"), tuple(round(a["reach_probability"] * 1000) for a in arrivals), "arrive")
         expect_equal(screen.pair("mean kJ"), tuple(float(f"{a['energy_kJ']['mean']:.3g}") for a in arrivals), "energy")
-        expect_near(control["index"]["residual_kJ"], index_of(screen)[1], 0.06, "left")
+        expect_near(control["index"]["residual_kJ"], read_index(screen)[1], 0.06, "left")
 
 
 def test_export_rocks():

@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import play  # noqa: E402
 from play import FAST, VIEWS, Place, fast, run_script  # noqa: E402
 from harness import (DONE, INPUT, OUTPUT, PROFILES, USAGE, Folder, Suite, expect,  # noqa: E402
-                     expect_equal, expect_in, expect_near, tests_of)
+                     expect_equal, expect_in, expect_near, list_tests)
 
 SIZES = [(80, 24), (120, 40), (200, 50)]
 CHARSETS = ["braille", "block", "ascii"]
@@ -40,7 +40,7 @@ def scene_for(folder, scene):
     return f"{name}.yaml"
 
 
-def views_of(scene, charset):
+def play_views(scene, charset):
     """Return the views in every size, played once for all charsets, except the slow one of the years."""
     if scene not in _seen:
         script = ["wait idle"]
@@ -72,10 +72,9 @@ OWN_KEYS = {"slope": ("Enter edit", "a add", "Tab picture"), "stand": ("Enter ed
 def check_frame(screen, view, scene, charset):
     screen.whole()
     for i, name in enumerate(VIEWS):
-        expect_in(f"{i + 1} {name}", screen.title, "title")
+        expect(re.search(rf" {i + 1} (?:{name}|{name[:3]}\w*[…~])", " " + screen.title), "title", screen)
     title = "Test site of Ciabocco et al. 2009" if "paper-site" in scene else "Four systems, before and after the cut"
-    begin, _, end = screen.title.replace("~", "…").rstrip().rpartition("\n")[2].partition("…")
-    expect(title in screen.title or (title.startswith(begin) and title.endswith(end) and len(begin + end) > 24), "title", screen)
+    expect(title in screen.title or Path(scene.split()[0]).stem in screen.title, "title", screen)
     for part in ("? help", "q quit", "u undo", "s save", *OWN_KEYS[view]):
         expect_in(part, screen.bar, "the bar of keys")
     wall = "|" if charset == "ascii" else "│"
@@ -135,7 +134,7 @@ def check_verdict(screen, by_index, charset):
 
 
 def check_pairs(screen):
-    """Expect no more arrivals, and no more energy, with forest than without; the energy light follows the share."""
+    """Expect at most the arrivals and the energy without forest; the energy light follows the share."""
     for name in ("arrive", "above 50 kJ", "mean kJ", "95 % below kJ", *["95 % below m"] * (screen.height > 24)):
         wood, bare = screen.pair(name)
         expect(wood < bare, f"{name}: {wood} through the wood, {bare} without", screen.now)
@@ -237,7 +236,7 @@ def check_view(screen, view, scene, charset):
 
 
 def check_screen(size, view, scene, charset):
-    screens = views_of(scene, charset)
+    screens = play_views(scene, charset)
     screen = screens[size, view]
     check_frame(screen, view, scene, charset)
     check_now(screen, scene, charset)
@@ -278,7 +277,7 @@ height, m            0"""
 
 def test_golden():
     """The forms of stand and rock at 80x24 are unchanged."""
-    screens = views_of("paper-site", "braille")
+    screens = play_views("paper-site", "braille")
     body = "\n".join(x for x in screens[(80, 24), "stand"].body.split("\n") if "per ha   diam. cm" not in x)
     expect(body.startswith(GOLDEN_STAND), "wanted", GOLDEN_STAND, "found", body)
     expect(screens[(80, 24), "rock"].body.startswith(GOLDEN_ROCK), "wanted", GOLDEN_ROCK, screens[(80, 24), "rock"])
@@ -288,7 +287,7 @@ def test_more_mark():
     """The mark of more text below does not cover a letter of the results."""
     for scene in SCENES:
         for size in SIZES:
-            body = views_of(scene, "ascii")[size, "results"].body
+            body = play_views(scene, "ascii")[size, "results"].body
             found = re.findall(r"\b\w*[a-uw-z]v[^\Waeiouy]\w*", body)
             expect(not found, f"{size}: in the middle of a word: {found}", body)
 
@@ -429,7 +428,7 @@ def test_without_scene():
     """Without a scene the paper's site opens."""
     with Folder() as folder:
         screen = play.play(folder.path, "key 3\ndump")[0]
-    screen.has("Test site of", "diameter, m 0.56")
+    screen.has("paper-site", "diameter, m 0.56")
 
 
 def test_charset_of_locale():
@@ -460,7 +459,7 @@ def main():
                                 view, scene, charset)
     for view in VIEWS:
         suite.check(f"screen: 60x20: {view}", check_smallest, view)
-    suite.run(tests_of(sys.modules[__name__]))
+    suite.run(list_tests(sys.modules[__name__]))
     suite.end()
 
 

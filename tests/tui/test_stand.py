@@ -77,7 +77,7 @@ def test_diameter_alone():
 
 
 def test_standards():
-    """Today's trees and those retained by a cut are shown together; if they differ the form says so"""
+    """Today's trees and those retained by a cut are shown together; if they differ the form reports it"""
     start, more, cut = play(CUT, """resize 120 40
         key 2
         dump

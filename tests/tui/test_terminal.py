@@ -19,7 +19,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, WOOD, Place, check_good, home  # noqa: E402
 from harness import (CEDUO, PATIENCE, SANITIZED, USAGE, Failure, Skip, Suite, expect, expect_equal, expect_in,  # noqa: E402
-                     processor_seconds, result, tests_of)
+                     processor_seconds, result, list_tests)
 
 ASAN = b"__asan_init" in Path(CEDUO).read_bytes()
 
@@ -75,11 +75,11 @@ class Tmux:
         """Wait until all parts are on the screen; return it."""
         last = [""]
 
-        def there():
+        def find_screen():
             last[0] = self.screen()
             return all(p in last[0] for p in parts) and not any(p in last[0] for p in lacks)
 
-        until(lambda: f"{parts} without {lacks} on the screen, which is:\n{last[0]}", there)
+        until(lambda: f"{parts} without {lacks} on the screen, which is:\n{last[0]}", find_screen)
         return last[0]
 
     def keys(self, *keys):
@@ -132,7 +132,7 @@ class Tmux:
         self.sees(stools, "* ", lacks=("Esc cancel",))
 
 
-def gone(pid):
+def has_ended(pid):
     """True if a process has ended."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] in "ZX"
@@ -251,7 +251,7 @@ def test_resizes():
             t.tmux("resize-window", "-x", str(width), "-y", str(height))
             if i % 20 == 3:
                 t.keys(str(1 + i // 20 % 5))
-        expect(not gone(pid), "the program ended on a resize")
+        expect(not has_ended(pid), "the program ended on a resize")
         t.tmux("resize-window", "-x", "59", "-y", "15")
         t.sees("The window (59 x 15) is too small: at least 60 x 16 is")
         t.keys("1")
@@ -341,7 +341,7 @@ def end_by(number, name, restores):
         t.edit("1234")
         until("a copy of the unsaved work", lambda: left_behind(place))
         os.kill(pid, number)
-        until(f"ended by {name}", lambda: gone(pid))
+        until(f"ended by {name}", lambda: has_ended(pid))
         if restores:
             after_ending(t, before, name)
             expect("1 slope" not in t.screen(), f"the program's screen is still there after {name}")
@@ -394,7 +394,7 @@ def test_abort():
         before = mode(t)
         pid = t.start("fast.yaml")
         os.kill(pid, signal.SIGABRT)
-        until("ended by SIGABRT", lambda: gone(pid))
+        until("ended by SIGABRT", lambda: has_ended(pid))
         after_ending(t, before, "SIGABRT")
 
 
@@ -470,7 +470,7 @@ def leave_work(t, place):
 
 def kill(t, pid):
     os.kill(pid, signal.SIGKILL)
-    until("killed", lambda: gone(pid))
+    until("killed", lambda: has_ended(pid))
     sane(t)
 
 
@@ -535,13 +535,13 @@ def test_closed_window():
         until("a copy of the unsaved work", lambda: left_behind(place))
         t.tmux("new-session", "-d", "-s", "other", "sh")  # keeps the server
         t.tmux("kill-session", "-t", "first")
-        until("ended with its window", lambda: gone(pid))
+        until("ended with its window", lambda: has_ended(pid))
         expect(left_behind(place), "the work is lost")
 
 
 # ---- stopping during drawing ----
 
-def job_that_goes_on(arguments, env):
+def run_job(arguments, env):
     """Act like a shell: start the program as a job, and continue it whenever it stops."""
     signal.signal(signal.SIGTTOU, signal.SIG_IGN)
     job = os.fork()
@@ -589,7 +589,7 @@ def test_stop_while_drawing():
         if pid == 0:
             try:
                 os.chdir(place.path)
-                job_that_goes_on(("fast.yaml",), {**home(place.path), "TERM": "xterm"})
+                run_job(("fast.yaml",), {**home(place.path), "TERM": "xterm"})
             finally:
                 os._exit(127)
         try:
@@ -681,7 +681,7 @@ def test_ascii_locale():
         t.keys("Escape")
 
 
-def colours_of(screen):
+def read_colours(screen):
     """Return the colour codes of the sequences m; 39 and 49 are the terminal's own colours."""
     codes = [c for seq in re.findall(r"\x1b\[([\d;:]*)m", screen) for c in re.split("[;:]", seq)]
     return {c for c in codes if re.fullmatch(r"3[0-8]|4[0-8]|9\d|10\d", c)}
@@ -698,7 +698,7 @@ def test_no_color():
                 t.sees("? help")
             t.keys("1")
             t.sees("Belts of forest")
-            found = colours_of(t.screen("-e"))
+            found = read_colours(t.screen("-e"))
             expect(bool(found) == wanted, f"{setting}: colours {found}")
 
 
@@ -711,10 +711,10 @@ def test_themes():
         t.keys("t")
         second = until("another screen", lambda: (lambda s: s != first and s)(t.screen("-e")))
         t.keys("t")
-        until("a screen without colours", lambda: not colours_of(t.screen("-e")))
+        until("a screen without colours", lambda: not read_colours(t.screen("-e")))
         t.keys("t")
         until("the first again", lambda: t.screen("-e") == first)
-        expect(colours_of(first) and second, first)
+        expect(read_colours(first) and second, first)
 
 
 def press_mouse(t, button, x, y):
@@ -788,10 +788,10 @@ def test_click_and_wait():
 def test_idle():
     """An idle program uses no processor and writes nothing."""
     for scene, mark in (("fast.yaml", "finished, "), ("wood.yaml", "finished, ")):
-        at_rest(scene, mark)
+        play_at_rest(scene, mark)
 
 
-def at_rest(scene, mark):
+def play_at_rest(scene, mark):
     with Place() as place, Tmux(place) as t:
         pid = t.start(scene)
         t.sees(mark, " rocks")
@@ -820,7 +820,7 @@ def at_rest(scene, mark):
 
 
 def test_refining_ends():
-    """On the paper's site the figures refine until the mark says that they are fine."""
+    """On the paper's site the figures are refined until the mark shows the last level."""
     with Place() as place, Tmux(place) as t:
         t.start("paper-site")
         screen = until("figures that are refined no more", lambda: (lambda s: "finished, " in s and s)(t.screen()))
@@ -875,7 +875,7 @@ def main():
     if not shutil.which("tmux"):
         print("# no tmux here: most of these tests are skipped")
     suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
+    suite.run(list_tests(sys.modules[__name__]))
     suite.end()
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """View 7: uncertainty of the answer and its causes; the uncertainty in the column on the right; ranges edited there."""
+import html
 import json
 import math
 import re
@@ -20,7 +21,7 @@ NO_LAW = WOOD.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
 
 
 def test_nothing():
-    """A scene without uncertainty, or with it disabled, says so, computes nothing, and has none in the column"""
+    """A scene without uncertainty, or with it disabled, reports this, computes nothing, and has none in the column"""
     told = {NO_LAW + "uncertainty: none\n": "Uncertainty was not computed: the scene has 'uncertainty: none'",
             NO_LAW + "uncertainty: []\n": "Nothing in this scene is marked as assumed"}
     with Place() as place:
@@ -28,7 +29,7 @@ def test_nothing():
             place.write("sure.yaml", scene)
             sure, = place.play("key 7\nwait idle\ndump", "sure.yaml")
             expect_in(why, " ".join(sure.body.split()))
-            expect("may be" not in sure.now + sure.lines[1], sure)
+            expect("; range" not in sure.now + sure.lines[1], sure)
 
 
 def test_so_far():
@@ -44,7 +45,7 @@ def test_so_far():
                 f"wait idle\ndump\nkey 7\ndump\nwait idle\ndump\n{keys}wait idle\ndump", scene)
             for screen in (unasked, known, last):
                 expect("so far" not in screen.lines[1] and "uncertainty" not in screen.lines[1], "the answer", screen)
-            expect_in("may be", known.lines[1])
+            expect_in("; range ", known.lines[1])
             expect_equal(len(open_), edits, "screens after an edit")
             for screen in (first, *open_):
                 expect(re.search(r" [✔✘?] [A-Z ]+ so far: .* uncertainty \d+ %$", screen.lines[1]), "the answer", screen)
@@ -67,13 +68,13 @@ def test_view():
     ends = math.floor(wooded["exceed_lo"] * 1000), math.ceil(wooded["exceed_hi"] * 1000)
     for screen in (small, large):
         screen.whole().has("Measure first: stem strength U, J/m³, upper")
-        expect(re.search(r"^stem stren.* \d+ % +leaves", screen.body, re.M), "the input with its share in", screen)
+        expect(re.search(r"^stem stren.* \d+ % +\d+ if known", screen.body, re.M), "the input with its share in", screen)
         expect(re.search(rf"^current .* {found:.0f} +(?:{ends[0]}–{ends[1]} +)?{band[0]}–{band[1]}$", screen.body, re.M), "the option's line in", screen)
         expect("forest[" not in screen.body, "a path of the file in", screen)
         expect_in("Enter edit", screen.bar)
     for screen in (small, large, slope):
         expect(re.search(rf"^  90 % range +{band[0]}–{band[1]}$", screen.now, re.M), "the uncertainty in the column:", screen.now)
-        expect(re.search(rf"^ .*{found:.0f} of 1000 .*; may be {band[0]}–{band[1]}$", screen.lines[1]), "the verdict:", screen.lines[1])
+        expect(re.search(rf"^ .*{found:.0f} of 1000 .*; range {band[0]}–{band[1]}$", screen.lines[1]), "the verdict:", screen.lines[1])
     expect(re.search("^energy depends on stem stren", large.now, re.M), "what turns the test:", large.now)
 
 
@@ -112,13 +113,13 @@ def test_options():
         place.write("cuts.yaml", CUTS + UNCERTAINTY.replace("forest[0]", "options[*].forest[0]"))
         thick, thin, further, compared = place.play(
             "key 7\nwait idle\ndump\nkey ]\nwait idle\ndump\nkey PgDn\ndump\nkey 5\nwait idle\ndump", "cuts.yaml")
-    thick.has("thick beats thin in", "clear.", "depends on")
-    thin.has("thick beats thin in", "depends on") # the worse of a pair, too
+    thick.has("'thick' beats 'thin' in", "clear.", "depends on")
+    thin.has("'thick' beats 'thin' in", "depends on") # the worse of a pair, too
     for name in ("thick", "thin"):  # beside today's figure, of which it is
         band = re.search(rf"^{name} .* (\d+–\d+)$", thin.body, re.M).group(1)
         expect(re.search(rf"^{name} +\d+±\d+ +{band} +\d+±\d+ ", compared.body, re.M), compared)
     expect(re.search("^option +today +range +mean ", compared.body, re.M), compared)
-    further.has("thin beats none left in")
+    further.has("'thin' beats 'none left' in")
 
 
 def test_over_the_rotation():
@@ -136,12 +137,12 @@ def test_over_the_rotation():
         today, over, other, back, compared, small = place.play(
             "resize 120 40\nkey 7\nwait idle\ndump\nkey Tab\ndump\nkey ]\nwait idle\ndump\nkey Tab\ndump\n"
             "key 5\nwait idle\ndump\nresize 80 24\ndump\nkey 1 w\nwait idle\nkey Down Down Down Down Down" + 7 * " Enter" + "\nwait idle\nkey Enter", "turn.yaml")
-        written = " ".join(re.sub("<[^>]*>", " ", place.text("ceduo.html")).split())
+        written = " ".join(html.unescape(re.sub("<[^>]*>", " ", place.text("ceduo.html"))).split())
         run = json.loads(ceduo("--sensitivity=256", "--years", "-f", "json", place.path / "turn.yaml").out)
     bands = {f["option"]: "–".join(f"{end * 1000:.0f}" for end in (f["uncertainty"]["p5"], f["uncertainty"]["p95"]))
              for f in run["figures"] if f["figure"] == "rotation.exceed_probability" and f["against"] is None}
     rank, = run["ranking"]
-    order = rf"Over the years {rank['better']} beats {rank['than']} in {rank['probability'] * 100:.0f} % of plausible cases"
+    order = rf"Over the years '{rank['better']}' beats '{rank['than']}' in {rank['probability'] * 100:.0f} % of plausible cases"
     expect_equal(sorted(bands), ["cut", "kept"])
     for name, band in bands.items():
         expect(re.search(rf"^{name} .* {band}( |$)", over.body, re.M), name, band, over)
@@ -180,7 +181,7 @@ def test_many_options():
     for screen, shown, more in ((four, names[:4], 0), (eight, names[:4], 4), (last, names[4:], 4)):
         expect_equal(re.findall(r"^(\w+) .* \d+–\d+$", screen.body, re.M), shown, screen)
         expect_equal(re.findall(r"^(\d+) more options: ] goes on", screen.body, re.M), [str(more)] if more else [], screen)
-        expect(re.search(r"depends on +of .*\n.* leaves", screen.body), "an input in", screen)
+        expect(re.search(r"depends on +width .*\n.* if known", screen.body), "an input in", screen)
         expect(re.search(r" v$", screen.body, re.M), "the words go on", screen)
 
 

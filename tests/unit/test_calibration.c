@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Fits whose likelihood is known in closed form: a rock's speed as it leaves is the value that is fitted, so that a mean speed that
- * was seen is its normal law. And p of what the model itself has made. */
+/* Fits with a likelihood in closed form: the fitted value is a rock's initial speed, so an observed mean speed gives its normal
+ * distribution. Also p of observations made by the model itself. */
 #include "expect.h"
 #include "local.h"
 
@@ -15,62 +15,62 @@
 #define LO 10.
 #define HI 20.
 
-static const char *const place = "release.vx_m_s", *const density = "rock.density_kg_m3";
+static const char *const speed_path = "release.vx_m_s", *const density_path = "rock.density_kg_m3";
 static struct ceduo_input input;
 
-/* From 100 m above two metres of level ground, beyond which every rock leaves. */
-static struct ceduo_scene flight(double spread)
+/* Release rocks 100 m above two metres of level ground; all leave the slope. */
+static struct ceduo_scene make_flight(double spread)
 {
     static struct ground g;
     ground_make(&g, 2, 0, 100, 15, 0);
     g.scene.release.vx.spread = spread;
-    input =
-        (struct ceduo_input){.path = place, .kind = CEDUO_INPUT_RANGE, .lo = LO, .hi = HI, .places_count = 1, .places = &place};
+    input = (struct ceduo_input){
+        .path = speed_path, .kind = CEDUO_INPUT_RANGE, .lo = LO, .hi = HI, .places_count = 1, .places = &speed_path};
     return g.scene;
 }
 
-/* A mean speed where rocks leave, known to `sd`. */
-static struct ceduo_observation speed(double mean, double sd)
+/* Mean of one speed at the release, with standard deviation `sd`. */
+static struct ceduo_observation mean_speed(double mean, double sd)
 {
     return (struct ceduo_observation){.kind = CEDUO_OBSERVED_SPEED, .x = 0.001, .n = 1, .mean = mean, .sd = sd};
 }
 
-/* All pass, whatever is fitted. */
-static struct ceduo_observation all_pass(void)
+/* All rocks pass, whatever the fitted value. */
+static struct ceduo_observation make_all_pass(void)
 {
     return (struct ceduo_observation){.kind = CEDUO_OBSERVED_PASSED, .x = 0.001, .count = 10, .released_count = 10};
 }
 
 static unsigned threads = 1;
 
-static struct ceduo_calibration fit_of(const struct ceduo_scene *scene, const struct ceduo_observation *seen, size_t n,
-                                       uint64_t rocks)
+static struct ceduo_calibration fit(const struct ceduo_scene *scene, const struct ceduo_observation *observed, size_t n,
+                                    uint64_t rocks)
 {
-    const struct ceduo_calibration_scene of = {scene, &input, n, seen};
+    const struct ceduo_calibration_scene data = {scene, &input, n, observed};
     const struct ceduo_calibration_def def = {
-        .scenes_count = 1, .scenes = &of, .parameters_count = 1, .rocks = rocks, .seed = 1, .threads = threads};
+        .scenes_count = 1, .scenes = &data, .parameters_count = 1, .rocks = rocks, .seed = 1, .threads = threads};
     struct ceduo_calibration a;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     assert_true(a.converged);
     return a;
 }
 
-static struct ceduo_fitted fitted_to(double mean, double sd)
+static struct ceduo_fitted fit_speed(double mean, double sd)
 {
-    struct ceduo_scene scene = flight(0);
-    const struct ceduo_observation seen = speed(mean, sd);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2);
+    struct ceduo_scene scene = make_flight(0);
+    const struct ceduo_observation observed = mean_speed(mean, sd);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
     struct ceduo_fitted p = a.parameters[0];
     return p;
 }
 
-static int rising(const void *a, const void *b)
+static int compare_values(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
-/* The smallest of n sorted values that a share p does not exceed. */
+/* Return the smallest of n sorted values with cumulative share p. */
 static double quantile(const double *sorted, size_t n, double p)
 {
     size_t k = 0;
@@ -79,67 +79,68 @@ static double quantile(const double *sorted, size_t n, double p)
     return sorted[k];
 }
 
-/* ---- what is not refuted ---- */
+/* ---- fitted values ---- */
 
-/* A normal law, of which a quantile of 200 independent draws is known to 0.19 (2.5 and 97.5 %) and 0.09 (the median) of its sd; and
- * the quantiles of the draws themselves. */
-TEST(a_normal_law_is_found)
+/* Compare with a normal distribution. A quantile of 200 independent draws has a standard error of 0.19 sd (2.5 and 97.5 %) or
+ * 0.09 sd (median). Quantiles are those of the draws. */
+TEST(a_normal_distribution_is_found)
 {
-    struct ceduo_scene scene = flight(0);
-    const struct ceduo_observation seen = speed(14, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2);
+    struct ceduo_scene scene = make_flight(0);
+    const struct ceduo_observation observed = mean_speed(14, 1);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
     const struct ceduo_fitted *p = &a.parameters[0];
     EXPECT_NEAR(p->best, 14, 0.02);
     EXPECT_NEAR(p->p2_5, 14 - 1.96, 4 * 0.19);
     EXPECT_NEAR(p->p50, 14, 4 * 0.09);
     EXPECT_NEAR(p->p97_5, 14 + 1.96, 4 * 0.19);
     assert_true(p->identified && !p->at_bound);
-    qsort(a.draws, a.draws_count, sizeof *a.draws, rising);
+    qsort(a.draws, a.draws_count, sizeof *a.draws, compare_values);
     EXPECT_NEAR(p->p2_5, quantile(a.draws, a.draws_count, .025), 1e-9);
     EXPECT_NEAR(p->p50, quantile(a.draws, a.draws_count, .5), 1e-9);
     EXPECT_NEAR(p->p97_5, quantile(a.draws, a.draws_count, .975), 1e-9);
 }
 
-/* A value lies at a bound where the best one is there, though half of the draws are farther than a twentieth from it (half a normal
- * law: its median is 0.67 sd); or where they are not, though the best one is. What is not determined lies nowhere. */
-TEST(what_lies_at_a_bound)
+/* A value is at a bound if its best fit is there, even if half of the draws are farther than a twentieth of the range (half a
+ * normal distribution: median 0.67 sd). It is at a bound, too, if the draws are near and the best fit is not. An unidentified
+ * value is at no bound. */
+TEST(values_at_a_bound)
 {
-    struct ceduo_fitted p = fitted_to(LO, 2);
+    struct ceduo_fitted p = fit_speed(LO, 2);
     assert_true(p.identified && p.at_bound);
     EXPECT(p.best, <, LO + 0.01);
     EXPECT(p.p50, >, LO + 0.5);
-    p = fitted_to(HI, 2);
+    p = fit_speed(HI, 2);
     assert_true(p.identified && p.at_bound);
     EXPECT(p.p50, <, HI - 0.5);
-    p = fitted_to(LO + 0.3, 0.1);
+    p = fit_speed(LO + 0.3, 0.1);
     assert_true(p.at_bound);
     EXPECT(p.best, >, LO + 0.2);
-    assert_true(fitted_to(HI - 0.3, 0.1).at_bound);
-    assert_false(fitted_to(LO + 0.8, 0.1).at_bound);
-    p = fitted_to(LO, 20);
+    assert_true(fit_speed(HI - 0.3, 0.1).at_bound);
+    assert_false(fit_speed(LO + 0.8, 0.1).at_bound);
+    p = fit_speed(LO, 20);
     assert_false(p.identified || p.at_bound);
 }
 
 /* More threads than chains change no bit. */
 TEST(threads_change_nothing)
 {
-    struct ceduo_scene scene = flight(0);
-    const struct ceduo_observation seen = speed(14, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration one = fit_of(&scene, &seen, 1, 2);
+    struct ceduo_scene scene = make_flight(0);
+    const struct ceduo_observation observed = mean_speed(14, 1);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration one = fit(&scene, &observed, 1, 2);
     threads = CEDUO_CALIBRATION_CHAINS + 1;
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration many = fit_of(&scene, &seen, 1, 2);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration many = fit(&scene, &observed, 1, 2);
     threads = 1;
     EXPECT(many.draws_count, ==, one.draws_count);
     assert_memory_equal(many.draws, one.draws, one.draws_count * sizeof *one.draws);
     assert_memory_equal(many.parameters, one.parameters, sizeof *one.parameters);
 }
 
-/* What says nothing leaves the value as it was before, uniform: draws with variance 1/12 of the range squared. */
-TEST(nothing_seen_leaves_a_uniform_law)
+/* Observations without information leave the uniform prior: variance 1/12 of the squared range. */
+TEST(no_information_leaves_a_uniform_distribution)
 {
-    struct ceduo_scene scene = flight(0);
-    const struct ceduo_observation seen = all_pass();
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2);
+    struct ceduo_scene scene = make_flight(0);
+    const struct ceduo_observation observed = make_all_pass();
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
     const struct ceduo_fitted *p = &a.parameters[0];
     double sum = 0, squares = 0, n = (double)a.draws_count;
     for (size_t i = 0; i < a.draws_count; i++) {
@@ -149,35 +150,35 @@ TEST(nothing_seen_leaves_a_uniform_law)
         sum += u / n;
         squares += u * u / n;
     }
-    EXPECT_NEAR(sum, 0.5, 4 * sqrt(1. / 12 / 200)); /* of 200 independent draws */
+    EXPECT_NEAR(sum, 0.5, 4 * sqrt(1. / 12 / 200)); /* effective size 200 */
     EXPECT_NEAR(squares - sum * sum, 1. / 12, 4 * sqrt(1. / 180 / 200));
     assert_false(p->identified || p->at_bound);
 }
 
-/* What fits better the faster, beyond the upper bound, too: the best value lies within the bounds. */
+/* The fit improves with speed even beyond the upper bound; the best value lies within the bounds. */
 TEST(chains_stay_within_their_bounds)
 {
-    struct ceduo_scene scene = flight(0);
-    const struct ceduo_observation seen = speed(25, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2);
+    struct ceduo_scene scene = make_flight(0);
+    const struct ceduo_observation observed = mean_speed(25, 1);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
     EXPECT(a.parameters[0].best, >, HI - 0.01);
     EXPECT(a.parameters[0].best, <=, HI);
     for (size_t i = 0; i < a.draws_count; i++)
         EXPECT(a.draws[i], <=, HI);
 }
 
-/* ---- what the observations do not hold ---- */
+/* ---- values to fix ---- */
 
-/* Three values by whether they are determined, how much of its bounds each may be, and how they go together (1 with 0, 2 with 0, 2
- * with 1): of two that are known only together the one that is known worse is left, the closest two first; one value stays, and
- * without draws all. */
-TEST(what_is_to_be_left_as_it_is)
+/* Three values: identified or not, width of each as a share of its bounds, correlations (1 with 0, 2 with 0, 2 with 1). If two
+ * values are strongly correlated, the one with the wider range is fixed; the closest pair comes first. One value always stays
+ * free; without draws all do. */
+TEST(unidentified_values_are_fixed)
 {
     static const struct {
-        bool determined[3];
-        double width[3], together[3];
+        bool identified[3];
+        double width[3], correlation[3];
         size_t draws;
-        bool loose[3];
+        bool fixed[3];
     } cases[] = {{{true, true, true}, {.1, .3, .2}, {.9, 0, -.9}, 9, {false, true, false}}, /* not converged: the widest */
                  {{true, true, true}, {.1, .3, .2}, {.91, 0, 0}, 9, {false, true, false}},
                  {{true, true, true}, {.1, .2, .3}, {.9, 0, -.9}, 9, {false, false, false}},
@@ -191,34 +192,34 @@ TEST(what_is_to_be_left_as_it_is)
                  {{false, false, false}, {NAN, NAN, NAN}, {NAN, NAN, NAN}, 0, {false, false, false}}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct ceduo_calibration a = {.parameters_count = 3, .draws_count = cases[i].draws, .converged = i > 1};
-        bool loose[CEDUO_CALIBRATION_MAX];
+        bool fixed[CEDUO_CALIBRATION_MAX];
         size_t n = 0;
         for (size_t k = 0; k < 3; k++) {
-            double hi = pow(10, -(double)k); /* the width is a share of it */
+            double hi = pow(10, -(double)k); /* upper bound */
             a.parameters[k] = (struct ceduo_fitted){
-                .hi = hi, .p2_5 = .05 * hi, .p97_5 = (.05 + cases[i].width[k]) * hi, .identified = cases[i].determined[k]};
-            n += cases[i].loose[k];
+                .hi = hi, .p2_5 = .05 * hi, .p97_5 = (.05 + cases[i].width[k]) * hi, .identified = cases[i].identified[k]};
+            n += cases[i].fixed[k];
         }
-        a.correlation[1][0] = cases[i].together[0], a.correlation[2][0] = cases[i].together[1];
-        a.correlation[2][1] = cases[i].together[2];
-        EXPECT(ceduo_calibration_unidentified(&a, loose), ==, n);
+        a.correlation[1][0] = cases[i].correlation[0], a.correlation[2][0] = cases[i].correlation[1];
+        a.correlation[2][1] = cases[i].correlation[2];
+        EXPECT(ceduo_calibration_unidentified(&a, fixed), ==, n);
         for (size_t k = 0; k < 3; k++)
-            EXPECT(loose[k], ==, cases[i].loose[k]);
+            EXPECT(fixed[k], ==, cases[i].fixed[k]);
     }
 }
 
-/* ---- what is predicted ---- */
+/* ---- predictions ---- */
 
-/* Of two things fitted, or to check the fit, one that the model cannot give is enough, wherever it stands. */
+/* One observation that the model cannot reproduce is enough, fitted or held back, first or second. */
 TEST(one_misfit_is_enough)
 {
-    struct ceduo_scene scene = flight(0);
+    struct ceduo_scene scene = make_flight(0);
     for (int first = 0; first < 2; first++)
         for (int check = 0; check < 2; check++) {
-            struct ceduo_observation seen[3] = {all_pass(), all_pass(), all_pass()};
-            seen[first] = speed(30, 1);
-            seen[first].use = check ? CEDUO_OBSERVED_CHECK : CEDUO_OBSERVED_FIT;
-            LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, seen, 3, 2);
+            struct ceduo_observation observed[3] = {make_all_pass(), make_all_pass(), make_all_pass()};
+            observed[first] = mean_speed(30, 1);
+            observed[first].use = check ? CEDUO_OBSERVED_CHECK : CEDUO_OBSERVED_FIT;
+            LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, observed, 3, 2);
             EXPECT(a.predicted[first].p_value, <, 0.001);
             EXPECT(a.predicted[2].p_value, >, 0.5);
             EXPECT(a.misfit, ==, !check);
@@ -226,107 +227,107 @@ TEST(one_misfit_is_enough)
         }
 }
 
-/* p is of other rocks than those of the fit: they differ from those of the scene as two samples do. */
-TEST(other_rocks_than_those_of_the_fit)
+/* Predictions use rocks other than those of the fit; they differ from the scene's rocks like two samples. */
+TEST(predictions_use_other_rocks_than_the_fit)
 {
-    struct ceduo_scene scene = flight(2);
-    input.path = density;
-    input.places = &density;
+    struct ceduo_scene scene = make_flight(2);
+    input.path = density_path;
+    input.places = &density_path;
     input.lo = 2500, input.hi = 2700;
-    const struct ceduo_observation seen = speed(15, 1);
-    struct ceduo_observation_fit own;
+    const struct ceduo_observation observed = mean_speed(15, 1);
+    struct ceduo_observation_fit unfitted;
     LOCAL(ceduo_observer, observer);
-    EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
-    EXPECT(ceduo_observer_simulate(observer, &scene, 50, NULL, &own), ==, CEDUO_OK);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 50);
+    EXPECT(ceduo_observer_create(&observed, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_simulate(observer, &scene, 50, NULL, &unfitted), ==, CEDUO_OK);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, &observed, 1, 50);
     const struct ceduo_observation_fit *at_best = &a.predicted[0].at_best;
-    EXPECT(at_best->mean, !=, own.mean);
-    EXPECT_NEAR(at_best->mean, own.mean, 5 * hypot(at_best->sd, own.sd) / sqrt(50));
+    EXPECT(at_best->mean, !=, unfitted.mean);
+    EXPECT_NEAR(at_best->mean, unfitted.mean, 5 * hypot(at_best->sd, unfitted.sd) / sqrt(50));
 }
 
-/* Two rocks of each of 200 draws are 400 single values, which tell 95 % of them; one of each is not enough. */
-TEST(few_single_values_tell_nothing)
+/* Two rocks of each of 200 draws are 400 single values, enough for a 95 % range; one rock of each is not. */
+TEST(few_single_values_give_no_range)
 {
-    struct ceduo_scene scene = flight(0);
-    struct ceduo_observation seen[2] = {all_pass(), speed(15, 1)};
-    struct ceduo_calibration a = fit_of(&scene, seen, 2, 2);
+    struct ceduo_scene scene = make_flight(0);
+    struct ceduo_observation observed[2] = {make_all_pass(), mean_speed(15, 1)};
+    struct ceduo_calibration a = fit(&scene, observed, 2, 2);
     assert_true(a.predicted[1].one_lo < 15 && a.predicted[1].one_hi > 15);
     ceduo_calibration_free(&a);
-    seen[1].use = CEDUO_OBSERVED_CHECK; /* one rock has no spread to fit by */
-    a = fit_of(&scene, seen, 2, 1);
+    observed[1].use = CEDUO_OBSERVED_CHECK; /* one rock has no variance for a fit */
+    a = fit(&scene, observed, 2, 1);
     assert_true(isnan(a.predicted[1].one_lo) && isnan(a.predicted[1].one_hi));
     ceduo_calibration_free(&a);
 }
 
-#define SEEN   400 /* times */
-#define VALUES 30
+#define SAMPLES 400
+#define VALUES  30 /* per sample */
 
-/* 400 lists of what rocks of another seed did, and 400 means of them: each p is as likely as any other, in ten classes by Pearson's
- * test with 9 degrees of freedom at one of a thousand. */
+/* 400 lists of values by rocks of another seed, and 400 means of them: p is uniform by Pearson's test with ten classes (9
+ * degrees of freedom, level 0.001). */
 TEST(p_is_uniform_under_the_truth)
 {
-    static struct ceduo_observation seen[2 * SEEN];
-    static struct ceduo_predicted p[2 * SEEN];
-    struct ceduo_scene scene = flight(2), truth = scene;
-    const struct ceduo_observation any = speed(15, 1);
+    static struct ceduo_observation observed[2 * SAMPLES];
+    static struct ceduo_predicted p[2 * SAMPLES];
+    struct ceduo_scene scene = make_flight(2), truth = scene;
+    const struct ceduo_observation observation = mean_speed(15, 1);
     LOCAL(ceduo_observer, observer);
     LOCAL_BYTES double *values;
     size_t n;
     truth.simulation.seed = 99;
-    EXPECT(ceduo_observer_create(&any, 1, &observer), ==, CEDUO_OK);
-    EXPECT(ceduo_observer_values(observer, &truth, 0, SEEN * VALUES, &values, &n), ==, CEDUO_OK);
-    EXPECT(n, ==, SEEN * VALUES);
-    for (size_t i = 0; i < SEEN; i++) {
+    EXPECT(ceduo_observer_create(&observation, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_values(observer, &truth, 0, SAMPLES * VALUES, &values, &n), ==, CEDUO_OK);
+    EXPECT(n, ==, SAMPLES * VALUES);
+    for (size_t i = 0; i < SAMPLES; i++) {
         double *list = values + i * VALUES, sum = 0, squares = 0;
-        qsort(list, VALUES, sizeof *list, rising);
+        qsort(list, VALUES, sizeof *list, compare_values);
         for (size_t k = 0; k < VALUES; k++) {
             sum += list[k] / VALUES;
             squares += (list[k] - 15) * (list[k] - 15) / VALUES;
         }
-        seen[i] = seen[SEEN + i] = speed(sum, 2);
-        seen[i].n = seen[SEEN + i].n = VALUES;
-        seen[i].values = list;
+        observed[i] = observed[SAMPLES + i] = mean_speed(sum, 2);
+        observed[i].n = observed[SAMPLES + i].n = VALUES;
+        observed[i].values = list;
         EXPECT(squares, >, 1);
     }
-    const struct ceduo_calibration_scene of = {.scene = &scene, .observations_count = 2 * SEEN, .observations = seen};
-    EXPECT(ceduo_compare_with_observations(&of, 20000, NULL, p), ==, CEDUO_OK);
+    const struct ceduo_calibration_scene data = {.scene = &scene, .observations_count = 2 * SAMPLES, .observations = observed};
+    EXPECT(ceduo_compare_with_observations(&data, 20000, NULL, p), ==, CEDUO_OK);
     for (size_t kind = 0; kind < 2; kind++) {
         double counts[10] = {0}, chi2 = 0;
-        for (size_t i = 0; i < SEEN; i++)
-            counts[(size_t)fmin(9, 10 * p[kind * SEEN + i].p_value)]++;
+        for (size_t i = 0; i < SAMPLES; i++)
+            counts[(size_t)fmin(9, 10 * p[kind * SAMPLES + i].p_value)]++;
         for (int c = 0; c < 10; c++)
-            chi2 += (counts[c] - SEEN / 10.) * (counts[c] - SEEN / 10.) / (SEEN / 10.);
+            chi2 += (counts[c] - SAMPLES / 10.) * (counts[c] - SAMPLES / 10.) / (SAMPLES / 10.);
         EXPECT(chi2, <, 27.88);
     }
 }
 
-#define LISTS 1500
-#define LONG  50 /* values of each list, in ten classes of five */
+#define LISTS       1500
+#define LIST_VALUES 50 /* in ten classes of five */
 
-/* Bounds of classes that a list makes itself vary with it. The mean of 1500 p is one half, as that of uniform values is, within four
- * of their standard errors, sqrt(1/12/1500). */
-TEST(p_of_lists_is_a_half_on_the_mean)
+/* A list's classes are bounded by its own quantiles, which vary with it. The mean of 1500 p is 1/2 like that of uniform values,
+ * within four standard errors sqrt(1/12/1500). */
+TEST(mean_p_of_lists_is_a_half)
 {
-    static struct ceduo_observation seen[LISTS];
+    static struct ceduo_observation observed[LISTS];
     static struct ceduo_predicted p[LISTS];
-    struct ceduo_scene scene = flight(2), truth = scene;
-    const struct ceduo_observation any = speed(15, 1);
+    struct ceduo_scene scene = make_flight(2), truth = scene;
+    const struct ceduo_observation observation = mean_speed(15, 1);
     LOCAL(ceduo_observer, observer);
     LOCAL_BYTES double *values;
     size_t n;
     double mean = 0;
     truth.simulation.seed = 99;
-    EXPECT(ceduo_observer_create(&any, 1, &observer), ==, CEDUO_OK);
-    EXPECT(ceduo_observer_values(observer, &truth, 0, LISTS * LONG, &values, &n), ==, CEDUO_OK);
-    EXPECT(n, ==, LISTS * LONG);
+    EXPECT(ceduo_observer_create(&observation, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_values(observer, &truth, 0, LISTS * LIST_VALUES, &values, &n), ==, CEDUO_OK);
+    EXPECT(n, ==, LISTS * LIST_VALUES);
     for (size_t i = 0; i < LISTS; i++) {
-        qsort(values + i * LONG, LONG, sizeof *values, rising);
-        seen[i] = speed(15, 2);
-        seen[i].n = LONG;
-        seen[i].values = values + i * LONG;
+        qsort(values + i * LIST_VALUES, LIST_VALUES, sizeof *values, compare_values);
+        observed[i] = mean_speed(15, 2);
+        observed[i].n = LIST_VALUES;
+        observed[i].values = values + i * LIST_VALUES;
     }
-    const struct ceduo_calibration_scene of = {.scene = &scene, .observations_count = LISTS, .observations = seen};
-    EXPECT(ceduo_compare_with_observations(&of, 20000, NULL, p), ==, CEDUO_OK);
+    const struct ceduo_calibration_scene data = {.scene = &scene, .observations_count = LISTS, .observations = observed};
+    EXPECT(ceduo_compare_with_observations(&data, 20000, NULL, p), ==, CEDUO_OK);
     for (size_t i = 0; i < LISTS; i++)
         mean += p[i].p_value / LISTS;
     EXPECT_NEAR(mean, .5, 4 * sqrt(1. / 12 / LISTS));

@@ -11,16 +11,16 @@ struct drawing {
     struct ceduo_cells *cells;
     struct ceduo_frame frame;
     enum ceduo_role role;
-    int taken; /* cells, by texts */
+    int cells_written; /* cells written by texts */
 };
 
-/* Draws through n points. */
-static void draw_points(struct drawing *d, const char *name, size_t n, const double *v)
+/* Draw a line through n points. */
+static void draw_points(struct drawing *d, const char *name, size_t n, const double *numbers)
 {
     double x[NUMBERS / 2], y[NUMBERS / 2];
     for (size_t i = 0; i < n; i++) {
-        x[i] = v[2 * i];
-        y[i] = v[2 * i + 1];
+        x[i] = numbers[2 * i];
+        y[i] = numbers[2 * i + 1];
     }
     if (strcmp(name, "stairs") == 0)
         ceduo_canvas_stairs(&d->cells->canvas, &d->frame, d->role, n, x, y);
@@ -30,52 +30,53 @@ static void draw_points(struct drawing *d, const char *name, size_t n, const dou
         ceduo_canvas_polyline(&d->cells->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_TRAJECTORY, n, x, y);
 }
 
-/* One command of a drawing, as unit/drawings.txt has them. */
-static void draw(struct drawing *d, char *command)
+/* Run one command of a row of unit/drawings.txt. */
+static void run_command(struct drawing *d, char *command)
 {
     static const char roles[] = " tdTagcemwsSbCGBWrox";
     struct ceduo_canvas *c = &d->cells->canvas;
     char name[16], *text;
-    int at = 0, k[4] = {0};
-    double v[NUMBERS] = {0};
+    int length = 0, ints[4] = {0};
+    double numbers[NUMBERS] = {0};
     size_t n = 0;
-    sscanf(command, " %15s%n", name, &at);
-    for (char *from = command + at; n < NUMBERS; from = text, n++) {
-        v[n] = strtod(from, &text);
+    sscanf(command, " %15s%n", name, &length);
+    for (char *from = command + length; n < NUMBERS; from = text, n++) {
+        numbers[n] = strtod(from, &text);
         if (text == from)
             break;
-        if (n < 4 && fabs(v[n]) < 3e9)
-            k[n] = (int)v[n];
+        if (n < 4 && fabs(numbers[n]) < 3e9)
+            ints[n] = (int)numbers[n];
     }
     text += strspn(text, " ");
     text = *text == '\'' ? text + 1 : NULL;
 #define IS(word) (strcmp(name, word) == 0)
     if (IS("frame"))
-        d->frame = (struct ceduo_frame){k[0], k[1], k[2], k[3], v[4], v[5], false, v[6], v[7]};
+        d->frame =
+            (struct ceduo_frame){ints[0], ints[1], ints[2], ints[3], numbers[4], numbers[5], false, numbers[6], numbers[7]};
     else if (IS("scale"))
-        assert_true(ceduo_frame_true_scale(&d->frame, c, v[0], v[1], v[2], v[3]));
+        assert_true(ceduo_frame_true_scale(&d->frame, c, numbers[0], numbers[1], numbers[2], numbers[3]));
     else if (IS("widen"))
         d->frame.left = ceduo_frame_axis_width(&d->frame, c);
-    else if (IS("whole"))
+    else if (IS("integers"))
         d->frame.x_integer = true;
     else if (IS("no-cell"))
-        assert_false(ceduo_frame_cell(&d->frame, c, v[0], v[1], &k[0], &k[1]));
+        assert_false(ceduo_frame_cell(&d->frame, c, numbers[0], numbers[1], &ints[0], &ints[1]));
     else if (IS("number") || IS("role"))
-        d->role = (enum ceduo_role)(IS("role") ? (int)(strchr(roles, text[0]) - roles) : k[0]);
+        d->role = (enum ceduo_role)(IS("role") ? (int)(strchr(roles, text[0]) - roles) : ints[0]);
     else if (IS("line"))
-        ceduo_canvas_line(c, &d->frame, d->role, v[0], v[1], v[2], v[3]);
+        ceduo_canvas_line(c, &d->frame, d->role, numbers[0], numbers[1], numbers[2], numbers[3]);
     else if (IS("rule-x"))
-        ceduo_canvas_rule_x(c, &d->frame, d->role, v[0]);
+        ceduo_canvas_rule_x(c, &d->frame, d->role, numbers[0]);
     else if (IS("rule-y"))
-        ceduo_canvas_rule_y(c, &d->frame, d->role, v[0]);
+        ceduo_canvas_rule_y(c, &d->frame, d->role, numbers[0]);
     else if (IS("bar"))
-        ceduo_canvas_bar(c, k[0], k[1], k[2], v[3], d->role);
-    else if (IS("poly") || IS("stairs") || IS("way"))
-        draw_points(d, name, n / 2, v);
+        ceduo_canvas_bar(c, ints[0], ints[1], ints[2], numbers[3], d->role);
+    else if (IS("poly") || IS("stairs") || IS("trajectory"))
+        draw_points(d, name, n / 2, numbers);
     else if (IS("start"))
         ceduo_canvas_cloud_start(c);
     else if (IS("show"))
-        ceduo_canvas_cloud_show(c, v[0]);
+        ceduo_canvas_cloud_show(c, numbers[0]);
     else if (IS("clear"))
         ceduo_cells_clear(d->cells);
     else if (IS("left"))
@@ -83,18 +84,18 @@ static void draw(struct drawing *d, char *command)
     else if (IS("bottom"))
         ceduo_canvas_axis_bottom(c, &d->frame, text);
     else if (IS("label"))
-        d->taken += ceduo_cells_label(d->cells, k[0], k[1], d->role, text);
+        d->cells_written += ceduo_cells_label(d->cells, ints[0], ints[1], d->role, text);
     else if (IS("right"))
-        d->taken += ceduo_canvas_label_right(c, k[0], k[1], d->role, text);
-    else if (IS("put"))
-        d->taken += ceduo_canvas_draw_text(c, k[0], k[1], k[2], d->role, text);
+        d->cells_written += ceduo_canvas_label_right(c, ints[0], ints[1], d->role, text);
+    else if (IS("text"))
+        d->cells_written += ceduo_canvas_draw_text(c, ints[0], ints[1], ints[2], d->role, text);
     else if (IS("end"))
-        d->taken += ceduo_cells_label_end(d->cells, k[0], k[1], k[2], d->role, text);
+        d->cells_written += ceduo_cells_label_end(d->cells, ints[0], ints[1], ints[2], d->role, text);
     else
-        fail_msg("'%s' is no command", command);
+        fail_msg("unknown command '%s'", command);
 }
 
-TEST(drawings_look_as_they_should)
+TEST(drawings_are_as_expected)
 {
     static const char *const sections[] = {"lines", "bars", "density", "true scale", "cells", "axes"};
     for (size_t i = 0; i < LENGTH(sections); i++)
@@ -109,25 +110,25 @@ TEST(drawings_look_as_they_should)
             struct drawing d = {cells, frame_in_dots(cells), CEDUO_ROLE_TRAJECTORY, 0};
             snprintf(commands, sizeof commands, "%s", row.at[1]);
             for (char *command; (command = strsep(&rest, ";"));)
-                draw(&d, command);
+                run_command(&d, command);
             LOCAL_BYTES char *text = ceduo_cells_dump(cells), *letters = ceduo_cells_roles(cells);
             if ((row.at[2][0] && strcmp(text, row.at[2]) != 0) || (row.at[3][0] && strcmp(letters, row.at[3]) != 0) ||
-                (row.at[4][0] && atoi(row.at[4]) != d.taken))
-                fail_msg("%s: %s:\n%s%s%d cells, wanted\n%s%s%s", row.at[0], row.at[1], text, letters, d.taken, row.at[2],
-                         row.at[3], row.at[4]);
+                (row.at[4][0] && atoi(row.at[4]) != d.cells_written))
+                fail_msg("%s: %s:\n%s%s%d cells, wanted\n%s%s%s", row.at[0], row.at[1], text, letters, d.cells_written,
+                         row.at[2], row.at[3], row.at[4]);
         }
 }
 
 /* ---- true scale ---- */
 
-TEST(true_scale_moves_one_dot_across_for_each_dot_up)
+TEST(a_diagonal_is_at_45_degrees_at_true_scale)
 {
     LOCAL(ceduo_cells, cells) = cells_in(30, 9, BRAILLE);
     struct ceduo_frame frame = {.width = 30, .height = 9};
     assert_true(ceduo_frame_true_scale(&frame, find_canvas(BRAILLE), 0, 150, 0, 20));
     double dot = (frame.x1 - frame.x0) / 59;
     assert_float_equal((frame.y1 - frame.y0) / 35, dot, 1e-12);
-    /* From the lower left dot on, each further dot to the right is one further up. */
+    /* Draw the diagonal from the lower left dot: one dot up for each dot to the right. */
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_TRAJECTORY, frame.x0, frame.y0, frame.x0 + 7 * dot,
                       frame.y0 + 7 * dot);
     expect_text(cells, "\n\n\n\n\n\n\n  ⡠⠊\n⡠⠊\n");

@@ -35,17 +35,17 @@ static struct document d;
 
 static void write_file(const char *name, const char *text)
 {
-    char whole[256];
-    in_folder(whole, name);
-    assert_true(ceduo_file_write(whole, text, strlen(text)));
+    char full[256];
+    in_folder(full, name);
+    assert_true(ceduo_file_write(full, text, strlen(text)));
 }
 
 static char *read_file(const char *name)
 {
-    char whole[256];
+    char full[256];
     static char text[65536];
-    in_folder(whole, name);
-    FILE *f = fopen(whole, "r");
+    in_folder(full, name);
+    FILE *f = fopen(full, "r");
     assert_non_null(f);
     text[fread(text, 1, sizeof text - 1, f)] = '\0';
     fclose(f);
@@ -57,7 +57,7 @@ static int set_up(void **state)
     (void)state;
     folder_make();
     setenv("XDG_STATE_HOME", folder, 1);
-    char share[256], *profiles = realpath("profiles", NULL); /* the shipped stands, as if they were installed */
+    char share[256], *profiles = realpath("profiles", NULL); /* the shipped profiles, as if they were installed */
     make_folder("share");
     in_folder(share, "share");
     setenv("XDG_DATA_HOME", share, 1);
@@ -84,21 +84,21 @@ static int tear_down(void **state)
     return folder_tear_down(state);
 }
 
-static void must(bool good)
+static void expect_success(bool passed)
 {
-    if (!good)
+    if (!passed)
         fail_msg("%s", ceduo_problems_print(&d.problems));
 }
 
 static void open_scene(void)
 {
     close_scene();
-    must(ceduo_document_open(&d, path, NULL, 0));
+    expect_success(ceduo_document_open(&d, path, NULL, 0));
 }
 
 static void set(const char *where, const char *value)
 {
-    must(ceduo_document_set(&d, where, value));
+    expect_success(ceduo_document_set(&d, where, value));
 }
 
 static void set_millimetres(int mm)
@@ -108,12 +108,12 @@ static void set_millimetres(int mm)
     set("rock.diameter_m", value);
 }
 
-/* Laid out anew, or with what its lines say beside their values. */
-static void save_as(const char *to, bool laid_out_anew)
+/* Save, and check that the file was laid out again, or kept its comments and its layout. */
+static void save_as(const char *to, bool new_layout)
 {
-    bool anew;
-    assert_true(ceduo_document_save(&d, to, &anew));
-    assert_int_equal(anew, laid_out_anew);
+    bool laid_out;
+    assert_true(ceduo_document_save(&d, to, &laid_out));
+    assert_int_equal(laid_out, new_layout);
     assert_false(ceduo_document_unsaved(&d));
 }
 
@@ -122,8 +122,8 @@ static void save(const char *to)
     save_as(to, false);
 }
 
-/* The copy that is kept of unsaved work; NULL: there is none. */
-static const char *copy_of(void)
+/* Return the recovery copy of unsaved work; NULL: none. */
+static const char *read_copy(void)
 {
     static char text[4096];
     FILE *f = fopen(d.recovery.path, "r");
@@ -134,9 +134,9 @@ static const char *copy_of(void)
     return text;
 }
 
-/* Steps, each with the rock's diameter after it and ! where that is not saved: set, save, undo and redo. A copy is kept of
- * what is shown for just as long as that is not what is on disk. */
-static void walk(const char *steps)
+/* Run steps set, save, undo and redo. Each is followed by the rock's diameter and, if that is unsaved, by !. A recovery copy
+ * exists exactly while the shown state is unsaved. */
+static void run_edits(const char *steps)
 {
     char step[8], diameter[8], copied[64];
     int n = 0;
@@ -152,15 +152,15 @@ static void walk(const char *steps)
         snprintf(copied, sizeof copied, "rock: {diameter_m: %s, ", diameter);
         if (d.file.scene.rock.diameter.mean != atof(diameter) || ceduo_document_unsaved(&d) != unsaved)
             fail_msg("%g, %d at %s", d.file.scene.rock.diameter.mean, ceduo_document_unsaved(&d), steps);
-        if ((copy_of() != NULL) != unsaved || (unsaved && !strstr(copy_of(), copied)))
-            fail_msg("%s is the copy at %s", copy_of() ? copy_of() : "none", steps);
+        if ((read_copy() != NULL) != unsaved || (unsaved && !strstr(read_copy(), copied)))
+            fail_msg("copy %s at %s", read_copy() ? read_copy() : "none", steps);
     }
     assert_int_equal(*steps, '\0');
 }
 
-/* ---- saved elsewhere ---- */
+/* ---- saved in another folder ---- */
 
-/* A scene in a/scenes whose files lie in a/slopes and a/stands; b/stands has another stand of the same name. */
+/* Write a scene into a/scenes, with its files in a/slopes and a/stands. b/stands has a different stand of the same name. */
 static void scatter(const char *slope_reference)
 {
     static const char *const folders[] = {"a", "a/scenes", "a/slopes", "a/stands", "a/more", "b", "b/scenes", "b/stands"};
@@ -183,7 +183,7 @@ static void scatter(const char *slope_reference)
     in_folder(path, "a/scenes/s.yaml");
 }
 
-/* What the files lead to, whatever else was changed. */
+/* Check the values read from the files of `scatter`. */
 static void expect_files(void)
 {
     const struct ceduo_option *o = &d.file.scene.options[0];
@@ -194,9 +194,9 @@ static void expect_files(void)
     assert_string_equal(o->belts[2].name, "ADS 1");
 }
 
-static void reopen(const char *at)
+static void reopen(const char *file)
 {
-    strcpy(path, at);
+    strcpy(path, file);
     open_scene();
     expect_files();
 }
@@ -211,8 +211,8 @@ static size_t count_notes(void)
     return n;
 }
 
-/* Two changes of the table: PATH=VALUE, or a path that is deleted. */
-static const struct changes *changes_of(const char *first, const char *second)
+/* Return two changes of a row: PATH=VALUE, or a path to delete. */
+static const struct changes *make_changes(const char *first, const char *second)
 {
     static struct changes changes;
     changes = (struct changes){.document = &d};
@@ -225,17 +225,17 @@ static const struct changes *changes_of(const char *first, const char *second)
     return &changes;
 }
 
-/* One row of unit/documents.txt does what it says; false where it fails. */
-static bool step(const char *const at[TABLE_COLUMNS])
+/* Run one row of unit/documents.txt; false if it fails. */
+static bool run_step(const char *const cell[TABLE_COLUMNS])
 {
-    static char kept[65536], whole[512];
+    static char remembered[65536], full[512];
     static size_t notes;
-    const char *a = at[1], *b = at[2], *hole = strchr(b, '@'); /* for the folder */
+    const char *a = cell[1], *b = cell[2], *placeholder = strchr(b, '@'); /* replaced by the folder */
     const struct node *node = ceduo_document_node(&d, a);
     size_t i = (size_t)atoi(a), k = (size_t)atoi(b);
     struct value value;
-    bool good = true;
-#define IS(word) (strcmp(at[0], word) == 0)
+    bool passed = true;
+#define IS(word) (strcmp(cell[0], word) == 0)
     if (IS("file"))
         write_file(a, b);
     else if (IS("scatter"))
@@ -247,80 +247,81 @@ static bool step(const char *const at[TABLE_COLUMNS])
             in_folder(path, a);
         open_scene();
     } else if (IS("save") || IS("lay-out")) {
-        in_folder(whole, a);
-        save_as(*a ? whole : path, IS("lay-out"));
-    } else if (IS("walk"))
-        walk(a);
+        in_folder(full, a);
+        save_as(*a ? full : path, IS("lay-out"));
+    } else if (IS("edit"))
+        run_edits(a);
     else if (IS("set"))
         set(a, b);
     else if (IS("refuse")) {
         size_t before = d.current;
-        good = !ceduo_document_set(&d, a, b) && strstr(ceduo_problems_print(&d.problems), at[3]) && d.current == before;
+        passed = !ceduo_document_set(&d, a, b) && strstr(ceduo_problems_print(&d.problems), cell[3]) && d.current == before;
     } else if (IS("set-all"))
-        good = ceduo_changes_apply(changes_of(a, b), at[3]);
+        passed = ceduo_changes_apply(make_changes(a, b), cell[3]);
     else if (IS("duplicate"))
-        good = ceduo_document_duplicate(&d, a, k, *at[3] ? changes_of(at[3], at[4]) : NULL);
+        passed = ceduo_document_duplicate(&d, a, k, *cell[3] ? make_changes(cell[3], cell[4]) : NULL);
     else if (IS("add"))
-        good = ceduo_document_add_option(&d, a, a);
+        passed = ceduo_document_add_option(&d, a, a);
     else if (IS("move"))
-        good = ceduo_document_move(&d, a, k, (size_t)atoi(at[3]));
+        passed = ceduo_document_move(&d, a, k, (size_t)atoi(cell[3]));
     else if (IS("split"))
-        good = ceduo_document_split_segment(&d, i, b, false);
+        passed = ceduo_document_split_segment(&d, i, b, false);
     else if (IS("delete"))
-        good = ceduo_document_delete(&d, a);
+        passed = ceduo_document_delete(&d, a);
     else if (IS("rename") || IS("cannot-rename"))
-        good = ceduo_document_rename_option(&d, i, b) == IS("rename");
+        passed = ceduo_document_rename_option(&d, i, b) == IS("rename");
     else if (IS("undo") || IS("cannot-undo"))
-        good = ceduo_document_undo_or_redo(&d, -1) == IS("undo");
+        passed = ceduo_document_undo_or_redo(&d, -1) == IS("undo");
     else if (IS("redo") || IS("cannot-redo"))
-        good = ceduo_document_undo_or_redo(&d, 1) == IS("redo");
+        passed = ceduo_document_undo_or_redo(&d, 1) == IS("redo");
     else if (IS("unsaved") || IS("saved"))
-        good = ceduo_document_unsaved(&d) == IS("unsaved");
+        passed = ceduo_document_unsaved(&d) == IS("unsaved");
     else if (IS("changed") || IS("unchanged"))
-        good = ceduo_document_changed_on_disk(&d) == IS("changed");
+        passed = ceduo_document_changed_on_disk(&d) == IS("changed");
     else if (IS("assumed") || IS("known"))
-        good = ceduo_scene_assumes_value(&d.file, a) == IS("assumed");
-    else if (IS("there") || IS("none"))
-        good = (node != NULL) == IS("there");
+        passed = ceduo_scene_assumes_value(&d.file, a) == IS("assumed");
+    else if (IS("exists") || IS("missing"))
+        passed = (node != NULL) == IS("exists");
     else if (IS("text"))
-        good = node && strcmp(node->text, b) == 0;
+        passed = node && strcmp(node->text, b) == 0;
     else if (IS("number"))
-        good = ceduo_value_find(&d.file.scene, a, &value) && ceduo_value_get(&value) == atof(b);
+        passed = ceduo_value_find(&d.file.scene, a, &value) && ceduo_value_get(&value) == atof(b);
     else if (IS("word"))
-        good = ceduo_value_find(&d.file.scene, a, &value) &&
-               strcmp(value.field->choices->names[(int)ceduo_value_get(&value)], b) == 0;
+        passed = ceduo_value_find(&d.file.scene, a, &value) &&
+                 strcmp(value.field->choices->names[(int)ceduo_value_get(&value)], b) == 0;
     else if (IS("vertices"))
-        good = d.file.scene.slope.vertices == i;
+        passed = d.file.scene.slope.vertices == i;
     else if (IS("inputs"))
-        good = d.file.inputs_count == i;
-    else if (IS("seen-through")) /* an option, and how it is called */
-        good = i < d.file.observations_count && d.file.observations[i].option == k &&
-               (!*at[3] || strcmp(d.file.observations[i].name, at[3]) == 0);
+        passed = d.file.inputs_count == i;
+    else if (IS("observed-through")) /* option and name */
+        passed = i < d.file.observations_count && d.file.observations[i].option == k &&
+                 (!*cell[3] || strcmp(d.file.observations[i].name, cell[3]) == 0);
     else if (IS("remember"))
-        strcpy(kept, read_file(a));
+        strcpy(remembered, read_file(a));
     else if (IS("as-remembered"))
-        good = strcmp(kept, read_file(a)) == 0;
+        passed = strcmp(remembered, read_file(a)) == 0;
     else if (IS("has") || IS("lacks")) {
-        snprintf(whole, sizeof whole, "%.*s%s%s", hole ? (int)(hole - b) : 400, b, hole ? folder : "", hole ? hole + 1 : "");
-        good = (strstr(read_file(a), whole) != NULL) == IS("has");
-    } else if (IS("notes")) { /* so many as were counted before */
-        good = !*a || count_notes() == notes;
+        snprintf(full, sizeof full, "%.*s%s%s", placeholder ? (int)(placeholder - b) : 400, b, placeholder ? folder : "",
+                 placeholder ? placeholder + 1 : "");
+        passed = (strstr(read_file(a), full) != NULL) == IS("has");
+    } else if (IS("notes")) { /* number of notes, equal to the last count if an argument is given */
+        passed = !*a || count_notes() == notes;
         notes = count_notes();
     } else {
-        fail_msg("'%s' is no step", at[0]);
+        fail_msg("unknown step '%s'", cell[0]);
     }
-    return good;
+    return passed;
 }
 
-TEST(documents_go_through_their_steps)
+TEST(documents_pass_their_steps)
 {
     const char *sections =
-        "comments|base|less|more|slope|wrong|items|names|undo|branch|copy|source|source of a file|source of what moves|disk|"
-        "elsewhere 1|elsewhere 2|elsewhere 3|elsewhere 4|beside|profile|typed";
+        "comments|base|deleted key|added key|slope|invalid|items|names|undo|branch|copy|source|source of a file|"
+        "source of moved items|disk|other folder 1|other folder 2|other folder 3|other folder 4|next folder|profile|typed";
     for (char section[64]; next_word(&sections, section);) {
         assert_int_equal(set_up(NULL), 0);
         for (TABLE(row, "unit/documents.txt", section))
-            if (!step(row.at))
+            if (!run_step(row.at))
                 fail_msg("%s, step %zu: %s %s %s %s: %s", section, row.rows, row.at[0], row.at[1], row.at[2], row.at[3],
                          ceduo_problems_print(&d.problems));
         assert_int_equal(tear_down(NULL), 0);
@@ -347,14 +348,14 @@ TEST_WITH(undo_and_redo, set_up, tear_down)
     assert_false(ceduo_document_undo_or_redo(&d, 1));
 }
 
-/* The oldest states are forgotten, half of them; what is on disk is known again where it is among those that are left. */
-TEST_WITH(history_is_cut, set_up, tear_down)
+/* The older half of the states is dropped. The saved state is still recognized if it is among the rest. */
+TEST_WITH(history_is_limited, set_up, tear_down)
 {
-    for (int saved = 0; saved <= 11; saved++) { /* of 12 states: 0 is the file's, 1 to 11 are 0.101 to 0.111 m */
+    for (int saved = 0; saved <= 11; saved++) { /* 12 states: 0 is the file's, 1 to 11 are 0.101 to 0.111 m */
         write_file("scene.yaml", scene);
         open_scene();
         for (int i = 1; i <= 11; i++) {
-            if (i == 11) /* as if it took up all that history may */
+            if (i == 11) /* pretend that it fills the history */
                 d.file.arena.bytes += DOCUMENT_HISTORY_BYTES;
             set_millimetres(100 + i);
             if (i == saved)
@@ -368,7 +369,7 @@ TEST_WITH(history_is_cut, set_up, tear_down)
         for (int i = 6; i <= 11; i++)
             assert_true(ceduo_document_undo_or_redo(&d, 1));
         assert_false(ceduo_document_undo_or_redo(&d, 1));
-        for (int i = 12; i <= 20; i++) /* no more goes until as much again is taken up */
+        for (int i = 12; i <= 20; i++) /* no state is dropped until the history is full again */
             set_millimetres(100 + i);
         for (int i = 19; i >= 5; i--) {
             assert_true(ceduo_document_undo_or_redo(&d, -1));
@@ -379,12 +380,12 @@ TEST_WITH(history_is_cut, set_up, tear_down)
     }
 }
 
-/* The copy of a scene whose process has ended, and in `file` where it lies; NULL: none. To be freed. */
-static char *left_of(const char *of, char file[400])
+/* Return the recovery copy of a scene whose process has ended, and its path in `file`; NULL: none; caller frees. */
+static char *read_abandoned_copy(const char *scene_path, char file[400])
 {
     struct arena arena = {0};
     size_t n;
-    char *text = NULL, *real = realpath(of, NULL);
+    char *text = NULL, *real = realpath(scene_path, NULL);
     const struct recovery *list = ceduo_recovery_list(&arena, &n);
     for (size_t i = 0; real && i < n; i++)
         if (list[i].scene && strcmp(list[i].scene, real) == 0) {
@@ -396,19 +397,19 @@ static char *left_of(const char *of, char file[400])
     return text;
 }
 
-TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
+TEST_WITH(unsaved_work_is_recovered, set_up, tear_down)
 {
     char file[400];
-    assert_null(left_of(path, file));
+    assert_null(read_abandoned_copy(path, file));
     pid_t child = fork();
-    if (child == 0) { /* a program that ends without a word */
+    if (child == 0) { /* a program that ends without saving */
         open_scene();
         set("rock.diameter_m", "0.123");
         _exit(0);
     }
     int status;
     assert_true(waitpid(child, &status, 0) == child && status == 0);
-    char *text = left_of(path, file);
+    char *text = read_abandoned_copy(path, file);
     assert_non_null(text);
     open_scene();
     assert_true(ceduo_document_recover(&d, text));
@@ -416,18 +417,18 @@ TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
     assert_true(ceduo_document_undo_or_redo(&d, -1));
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
     free(text);
-    assert_false(ceduo_document_recover(&d, "[a, list]")); /* which is no scene */
+    assert_false(ceduo_document_recover(&d, "[a, list]")); /* not a scene */
     assert_non_null(strstr(ceduo_problems_print(&d.problems), "expected a mapping, not a list"));
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
 }
 
-/* What is left of a copy whose writer was killed is not offered as work: it may be half of it. */
-TEST_WITH(half_a_copy_is_taken_away, set_up, tear_down)
+/* Remains of a copy whose writer was killed are not offered for recovery: they may be incomplete. */
+TEST_WITH(an_incomplete_copy_is_removed, set_up, tear_down)
 {
     struct recovery_copy own = ceduo_recovery_begin(path);
     char file[400], names[2][400];
     assert_non_null(own.path);
-    int n = (int)(strrchr(own.path, '-') - own.path); /* what stands before the program's number */
+    int n = (int)(strrchr(own.path, '-') - own.path); /* up to the process id */
     snprintf(names[0], sizeof names[0], "%.*s-999999999.yaml.ceduo-tmp-999999999-0", n, own.path);
     snprintf(names[1], sizeof names[1], "%.*s-999999999.yam", n, own.path);
     for (int i = 0; i < 2; i++) {
@@ -436,42 +437,42 @@ TEST_WITH(half_a_copy_is_taken_away, set_up, tear_down)
         fputs("rock: {", f);
         fclose(f);
     }
-    assert_null(left_of(path, file));
+    assert_null(read_abandoned_copy(path, file));
     assert_int_equal(access(names[0], F_OK), -1);
-    assert_int_equal(access(names[1], F_OK), 0); /* somebody else's */
+    assert_int_equal(access(names[1], F_OK), 0); /* not a copy of ceduo */
     ceduo_recovery_end(&own);
 }
 
-/* The lock decides if a copy was left behind, not a process number in its name: two machines may share the folder. */
-TEST_WITH(a_locked_copy_is_not_left_behind, set_up, tear_down)
+/* The lock decides if a copy's process has ended, not the process id in its name: two machines may share the folder. */
+TEST_WITH(a_locked_copy_is_not_offered, set_up, tear_down)
 {
     char file[400], copy[400], renamed[400], ready;
     int to_parent[2], to_child[2];
     assert_int_equal(pipe(to_parent) + pipe(to_child), 0);
     pid_t child = fork();
-    if (child == 0) { /* a program that runs on another machine: here its number is that of no process */
+    if (child == 0) { /* a program on another machine: its id is that of no process here */
         open_scene();
         for (int mm = 1; mm < 4; mm++) /* each edit is a new file */
             set_millimetres(mm);
         snprintf(copy, sizeof copy, "%s", d.recovery.path);
         snprintf(renamed, sizeof renamed, "%.*s-999999999.yaml", (int)(strrchr(copy, '-') - copy), copy);
-        bool good = rename(copy, renamed) == 0 && write(to_parent[1], "r", 1) == 1;
+        bool passed = rename(copy, renamed) == 0 && write(to_parent[1], "r", 1) == 1;
         close(to_child[1]);
-        good &= read(to_child[0], &ready, 1) == 0; /* until the test ends */
-        _exit(!good);
+        passed &= read(to_child[0], &ready, 1) == 0; /* until the test ends */
+        _exit(!passed);
     }
     assert_int_equal(read(to_parent[0], &ready, 1), 1);
-    assert_null(left_of(path, file));
+    assert_null(read_abandoned_copy(path, file));
     int status;
     assert_int_equal(kill(child, SIGKILL), 0);
     assert_true(waitpid(child, &status, 0) == child);
-    char *text = left_of(path, file);
+    char *text = read_abandoned_copy(path, file);
     assert_non_null(text);
     free(text);
-    /* its number is that of a process of this machine */
+    /* its id is that of a process of this machine */
     snprintf(renamed, sizeof renamed, "%.*s-%ld.yaml", (int)(strrchr(file, '-') - file), file, (long)getppid());
     assert_int_equal(rename(file, renamed), 0);
-    text = left_of(path, file);
+    text = read_abandoned_copy(path, file);
     assert_non_null(text);
     free(text);
     for (int i = 0; i < 2; i++) {
@@ -480,7 +481,7 @@ TEST_WITH(a_locked_copy_is_not_left_behind, set_up, tear_down)
     }
 }
 
-TEST_WITH(a_copy_is_its_owners_alone, set_up, tear_down)
+TEST_WITH(a_copy_is_readable_by_its_owner_only, set_up, tear_down)
 {
     struct stat st;
     mode_t mask = umask(0);
@@ -491,8 +492,8 @@ TEST_WITH(a_copy_is_its_owners_alone, set_up, tear_down)
     assert_int_equal(st.st_mode & 07777, 0600);
 }
 
-/* A name and a title with quotes and blanks at their ends come back as they were. */
-TEST_WITH(a_copy_has_name_and_title_whole, set_up, tear_down)
+/* Quotes and blanks at the ends of name and title are preserved. */
+TEST_WITH(a_copy_preserves_name_and_title, set_up, tear_down)
 {
     char other[400];
     struct arena arena = {0};
@@ -500,9 +501,9 @@ TEST_WITH(a_copy_has_name_and_title_whole, set_up, tear_down)
     snprintf(other, sizeof other, "%.240s \"b\" ", path);
     pid_t child = fork();
     if (child == 0) {
-        bool anew;
+        bool laid_out;
         open_scene();
-        bool saved = ceduo_document_save(&d, other, &anew);
+        bool saved = ceduo_document_save(&d, other, &laid_out);
         set("title", "'\"bosco\" d''alto'");
         _exit(!saved);
     }
@@ -517,7 +518,7 @@ TEST_WITH(a_copy_has_name_and_title_whole, set_up, tear_down)
     ceduo_arena_free(&arena);
 }
 
-/* In whatever order the folder has them. */
+/* Independent of their order in the folder. */
 TEST_WITH(the_newest_copies_come_first, set_up, tear_down)
 {
     static const time_t when[] = {3000, 1000, 5000, 2000, 4000};
@@ -541,7 +542,7 @@ TEST_WITH(the_newest_copies_come_first, set_up, tear_down)
     ceduo_recovery_end(&own);
 }
 
-TEST_WITH(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down)
+TEST_WITH(unsaved_work_belongs_to_the_saved_name, set_up, tear_down)
 {
     char file[400], other[256];
     snprintf(other, sizeof other, "%.240s-other", path);
@@ -549,14 +550,14 @@ TEST_WITH(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down)
     if (child == 0) {
         open_scene();
         set("rock.diameter_m", "0.2");
-        bool anew, saved = ceduo_document_save(&d, other, &anew);
+        bool laid_out, saved = ceduo_document_save(&d, other, &laid_out);
         set("rock.diameter_m", "0.3");
         _exit(!saved);
     }
     int status;
     assert_true(waitpid(child, &status, 0) == child && status == 0);
-    assert_null(left_of(path, file));
-    char *text = left_of(other, file);
+    assert_null(read_abandoned_copy(path, file));
+    char *text = read_abandoned_copy(other, file);
     assert_non_null(text);
     unlink(file);
     unlink(other);
@@ -569,7 +570,7 @@ static void set_time(const char *file, time_t seconds, long nanoseconds)
     assert_int_equal(utimensat(AT_FDCWD, file, times, 0), 0);
 }
 
-/* Its length, the second and the fraction of it in which it was written: each tells by itself. */
+/* Length, second and fraction of a second of the last write are each enough. */
 TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, tear_down)
 {
     char other[sizeof scene + 1];
@@ -593,28 +594,28 @@ TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, tear_down)
     assert_true(ceduo_document_changed_on_disk(&d));
 }
 
-/* Work on a scene that was saved elsewhere can be taken up again there. */
-TEST_WITH(the_copy_leads_to_the_same_files, set_up, tear_down)
+/* Work on a scene saved in another folder can be recovered there. */
+TEST_WITH(a_copy_refers_to_the_same_files, set_up, tear_down)
 {
-    char there[256], text[4096];
+    char other[256], text[4096];
     scatter("../slopes/by-csv.yaml");
     open_scene();
-    in_folder(there, "b/scenes/t.yaml");
-    save(there);
+    in_folder(other, "b/scenes/t.yaml");
+    save(other);
     set("slope.facets", "both");
     set("forest[0].stand.trees[0].per_ha", "50");
-    assert_non_null(copy_of());
-    strcpy(text, copy_of());
+    assert_non_null(read_copy());
+    strcpy(text, read_copy());
     ceduo_recovery_delete(&d.recovery);
-    reopen(there);
-    must(ceduo_document_recover(&d, text));
+    reopen(other);
+    expect_success(ceduo_document_recover(&d, text));
     expect_files();
     assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 50);
 }
 
-/* An edit elsewhere takes a simplified profile over, with its assumption; where the release moves, both are made anew. A release at
- * 50 m keeps the one point that a tolerance of .25 m keeps and one of 1 m leaves out. */
-TEST(a_simplified_profile_is_taken_over)
+/* A simplified profile and its assumption are kept by other edits and computed again if the release moves. A release at 50 m
+ * keeps the one point that a tolerance of 0.25 m keeps and 1 m omits. */
+TEST(a_simplified_profile_is_kept)
 {
     static const char text[] =
         "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [90]\nrelease: {x_m: 0}\n"

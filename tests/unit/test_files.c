@@ -19,9 +19,9 @@
 TEST_WITH(files_are_found, folder_set_up_profiles, folder_tear_down)
 {
     struct arena arena = {0};
-    put("ceduo/stands/own.yaml", "x");
-    put("ceduo/top.yaml", "x");
-    put("beside.yaml", "x");
+    folder_write("ceduo/stands/own.yaml", "x");
+    folder_write("ceduo/top.yaml", "x");
+    folder_write("beside.yaml", "x");
     char beside[256], wanted[256];
     in_folder(beside, "scene.yaml");
     const struct {
@@ -66,7 +66,7 @@ TEST_WITH(folders_of_the_environment, folder_set_up_profiles, folder_tear_down)
     char file[256]; /* a file instead of the folder */
     in_folder(file, "file");
     assert_int_equal(mkdir(file, 0700), 0);
-    put("file/ceduo", "x");
+    folder_write("file/ceduo", "x");
     const struct {
         const char *data, *home, *first;
     } rows[] = {{folder, home, own}, {file, home, NULL}, {NULL, home, path}, {"relative", home, path},
@@ -97,7 +97,7 @@ TEST_WITH(folders_are_listed, folder_set_up_profiles, folder_tear_down)
                                  "ceduo/stands/x",          "ceduo/stands/aaaa.yaml", "ceduo/stands/aa.yaml",
                                  "ceduo/stands/aaaaa.yaml", "ceduo/stands/aaa.yaml"};
     for (size_t i = 0; i < LENGTH(names); i++)
-        put(names[i], "x");
+        folder_write(names[i], "x");
     const char *const wanted[] = {"B", "a", "a-b", "aa", "aaa", "aaaa", "aaaaa", "folder"};
     const char *const *list = ceduo_file_list(&arena, own, "stands", &n);
     assert_int_equal(n, LENGTH(wanted));
@@ -106,7 +106,7 @@ TEST_WITH(folders_are_listed, folder_set_up_profiles, folder_tear_down)
     for (int i = 0; i < 100; i++) { /* more than the initial capacity */
         char name[64];
         snprintf(name, sizeof name, "ceduo/stands/n%02d.yaml", i);
-        put(name, "x");
+        folder_write(name, "x");
     }
     list = ceduo_file_list(&arena, own, "stands", &n);
     assert_int_equal(n, 108);
@@ -172,7 +172,7 @@ static void expect_problem(const char *path, size_t max, const char *words)
 TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
 {
     char path[256], link[256], to[256];
-    put("some", "twelve bytes");
+    folder_write("some", "twelve bytes");
     in_folder(path, "some");
     expect_bytes(path, 12, "twelve bytes");
     expect_problem(path, 11, "larger than 0 MiB");
@@ -206,8 +206,8 @@ TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
 TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
 {
     char path[256], link[256], second[256], missing[256];
-    put("some", "x");
-    put("other", "x");
+    folder_write("some", "x");
+    folder_write("other", "x");
     in_folder(path, "some");
     in_folder(link, "link");
     in_folder(second, "other");
@@ -241,7 +241,7 @@ TEST_WITH(files_that_cannot_be_written, folder_set_up_profiles, folder_tear_down
     assert_int_equal(errno, ENXIO);
     close(s);
     char path[256];
-    put("kept", "old");
+    folder_write("kept", "old");
     in_folder(path, "kept");
     assert_int_equal(chmod(folder, 0777), 0);
     static const mode_t modes[] = {0444, 0555, 0545, 0666};

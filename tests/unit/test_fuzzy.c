@@ -25,10 +25,10 @@ TEST(the_best_match_comes_first)
     ceduo_picker_add(&p, "large-reserves-cut", "large-reserves-cut", "3", false);
     ceduo_picker_add(&p, "bare", "bare", "4", false);
     ceduo_picker_filter(&p, "");
-    assert_string_equal(ceduo_picker_selected(&p)->value, "2"); /* what is there now */
+    assert_string_equal(ceduo_picker_selected(&p)->value, "2"); /* the current value */
     ceduo_picker_filter(&p, "large");
     assert_int_equal(p.matches, 3);
-    assert_string_equal(ceduo_picker_selected(&p)->value, "2"); /* of two as good the first */
+    assert_string_equal(ceduo_picker_selected(&p)->value, "2"); /* first of two equal matches */
     viewport_move(&p.lines, 100);
     assert_string_equal(ceduo_picker_selected(&p)->value, "1");
     ceduo_picker_filter(&p, "zzz");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow threads */
-/* The queue of jobs of the live program. */
+/* Queue of jobs of the interactive program. */
 #include "expect.h"
 
 #include <stdlib.h>
@@ -31,30 +31,30 @@ static int tear_down(void **state)
     return 0;
 }
 
-static bool show(void)
+static bool request_figures(void)
 {
     return ceduo_jobs_request_figures(jobs, &file, 0);
 }
 
-static struct jobs_state take(void)
+static struct jobs_state collect(void)
 {
     ceduo_job_results_free(&results);
     return ceduo_jobs_collect(jobs, &results);
 }
 
-static struct ceduo_search search_of(uint64_t rocks)
+static struct ceduo_search make_search(uint64_t rocks)
 {
     return (struct ceduo_search){
         .path = "rock.diameter_m", .goal = CEDUO_GOAL_EXCEED, .target = .3, .lo = .2, .hi = 1.5, .rocks = rocks};
 }
 
-TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
+TEST_WITH(figures_and_years_are_completed, set_up, tear_down)
 {
-    assert_true(show());
-    assert_false(show()); /* the same runs */
-    assert_true(take().busy);
+    assert_true(request_figures());
+    assert_false(request_figures()); /* same runs */
+    assert_true(collect().busy);
     ceduo_jobs_wait(jobs, true);
-    assert_false(take().busy);
+    assert_false(collect().busy);
     assert_non_null(results.snapshot);
     assert_int_equal(results.snapshot->key, ceduo_jobs_key(&file.scene));
     assert_int_equal(results.snapshot->snapshot->bare->simulated.rocks, RUNS_MAX);
@@ -67,20 +67,20 @@ TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
     assert_true(results.years->items[0]->key == ceduo_runs_years_key(&file.scene, 0));
     assert_int_equal(results.years->done, 1);
     assert_int_equal(results.years->rocks, 10 * RUNS_FIRST);
-    assert_false(show()); /* they are known */
+    assert_false(request_figures()); /* already computed */
     file.scene.rock.diameter.mean *= 1.1;
-    assert_true(show());
-    assert_true(take().busy);
+    assert_true(request_figures());
+    assert_true(collect().busy);
 }
 
-/* What was computed and not yet taken is of no use once the scene is another. */
-TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
+/* Results not collected before the scene changes are dropped. */
+TEST_WITH(results_of_an_older_scene_are_dropped, set_up, tear_down)
 {
-    assert_true(show());
+    assert_true(request_figures());
     ceduo_jobs_wait(jobs, true);
     file.scene.rock.diameter.mean *= 1.1;
-    assert_true(show());
-    take();
+    assert_true(request_figures());
+    collect();
     if (results.snapshot)
         assert_true(results.snapshot->key == ceduo_jobs_key(&file.scene));
     for (size_t i = 0; results.years && i < results.years->n; i++)
@@ -88,7 +88,7 @@ TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
             assert_true(results.years->items[i]->key == ceduo_runs_years_key(&file.scene, i));
 }
 
-/* Where nothing stands rocks do the same by every contact model, but by the index none is simulated. */
+/* Without trees, rocks move in the same way by every contact model, but the index simulates none. */
 TEST_WITH(a_contact_model_makes_another_key, set_up, tear_down)
 {
     static const enum ceduo_contact_model models[] = {CEDUO_INDEX, CEDUO_STEMS};
@@ -103,15 +103,16 @@ TEST_WITH(a_contact_model_makes_another_key, set_up, tear_down)
     assert_true(years[0] != years[1]);
 }
 
-/* A search goes before the figures, which go on after it; it finds what it finds alone, and leaves the scene as it is. */
-TEST_WITH(a_search_comes_first, set_up, tear_down)
+/* A search runs before the figures, which continue after it. It finds the same value as alone, and does not change the
+ * scene. */
+TEST_WITH(a_search_runs_first, set_up, tear_down)
 {
-    struct ceduo_search search = search_of(500);
+    struct ceduo_search search = make_search(500);
     double diameter = file.scene.rock.diameter.mean;
-    show();
+    request_figures();
     ceduo_jobs_request(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
     assert_true(ceduo_jobs_wait(jobs, false));
-    take();
+    collect();
     assert_non_null(results.search);
     assert_int_equal(results.search->status, CEDUO_OK);
     EXPECT(file.scene.rock.diameter.mean, ==, diameter);
@@ -122,26 +123,27 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
     assert_int_equal(alone.found.evaluations, results.search->found.evaluations);
     assert_false(ceduo_jobs_wait(jobs, false));
     ceduo_jobs_wait(jobs, true);
-    take();
+    collect();
     assert_non_null(results.snapshot);
     assert_null(results.search);
 }
 
-/* A preview is waited for as a search is. */
+/* Waiting for a search also waits for a preview. */
 TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
 {
     ceduo_jobs_request(jobs, &(struct job_request){JOB_PREVIEW, &file, 0, 1, "rock.diameter_m", "0.6", NULL, NULL});
     assert_true(ceduo_jobs_wait(jobs, false));
-    take();
+    collect();
     assert_non_null(results.preview);
 }
 
-/* The other energy law beside the figures: of as many rocks as said, and asked for again where it alone changes. */
-TEST_WITH(the_other_law_comes_along, set_up, tear_down)
+/* The alternative energy law is computed with the figures and the same number of rocks. It is computed again if an edit changes
+ * it alone. */
+TEST_WITH(the_alternative_law_is_computed, set_up, tear_down)
 {
-    show();
+    request_figures();
     ceduo_jobs_wait(jobs, true);
-    take();
+    collect();
     assert_non_null(results.alternatives);
     assert_int_equal(results.alternatives->options, 1);
     assert_int_equal(results.alternatives->controls, file.scene.controls_count);
@@ -149,50 +151,50 @@ TEST_WITH(the_other_law_comes_along, set_up, tear_down)
     assert_int_equal(results.alternatives->items[0].model, CEDUO_DORREN);
     double before = results.alternatives->items[0].arrivals.reach.mean;
     for (size_t i = 0; i < 2; i++)
-        file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* the scene's own law does not know it */
-    assert_true(show());
+        file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* not used by the scene's own law */
+    assert_true(request_figures());
     ceduo_jobs_wait(jobs, true);
-    take();
+    collect();
     assert_non_null(results.alternatives);
     EXPECT(results.alternatives->items[0].arrivals.reach.mean, <, before);
     assert_null(results.snapshot);
     file.scene.simulation.contact_model = CEDUO_INDEX;
-    show();
+    request_figures();
     ceduo_jobs_wait(jobs, true);
-    take();
+    collect();
     assert_null(results.alternatives);
 }
 
-static const struct uncertainty *uncertainty(size_t shown, size_t levels)
+static const struct uncertainty *compute_uncertainty(size_t shown, size_t levels)
 {
     assert_true(ceduo_jobs_request(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
     assert_false(ceduo_jobs_request(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, shown, .levels = levels}));
     ceduo_jobs_wait(jobs, true);
-    take();
+    collect();
     assert_non_null(results.uncertainty);
     assert_true(results.uncertainty->file.root == file.root);
     return results.uncertainty;
 }
 
-/* Of one option alone the first level is all there is. */
-TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
+/* With one option the first level is complete. */
+TEST_WITH(uncertainty_is_computed_last, set_up, tear_down)
 {
-    const struct uncertainty *u = uncertainty(0, 1);
+    const struct uncertainty *u = compute_uncertainty(0, 1);
     assert_int_equal(u->level, UNCERTAINTY_LEVELS - 1);
     assert_int_equal(u->inputs.n,
-                     12 + 12); /* of today, and of growth: two curves of four constants, two numbers of shoots, two densities */
+                     12 + 12); /* today, and growth: two curves of four constants, two numbers of shoots, two densities */
     assert_int_equal(u->answer.points, CEDUO_UNCERTAINTY_POINTS);
     EXPECT(u->answer.figures[CEDUO_UNCERTAINTY_EXCEED].fit.p5, <, u->answer.figures[CEDUO_UNCERTAINTY_EXCEED].fit.p95);
     assert_false(ceduo_jobs_request(jobs, &(struct job_request){JOB_UNCERTAINTY, &file, 0, .levels = UNCERTAINTY_LEVELS}));
     assert_true(u->answer.rotation);
-    ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
+    ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the nodes have not changed, so it would not be requested again */
     file.scene.controls_count = 0;
-    u = uncertainty(0, UNCERTAINTY_LEVELS); /* without a control there is nothing to be uncertain of */
+    u = compute_uncertainty(0, UNCERTAINTY_LEVELS); /* no control, no uncertain results */
     assert_int_equal(u->inputs.n, 0);
     file.scene.controls_count = 1;
 }
 
-/* Three options over two years. */
+/* Load three options over two years. */
 static int set_up_options(void **state)
 {
     static const char *const sets[] = {"years.first=1", "years.last=2"};
@@ -204,42 +206,42 @@ static int set_up_options(void **state)
     return 0;
 }
 
-/* Of several the shown one is first: its figures stay when the others come. */
-TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_down)
+/* The shown option is computed first; its figures stay when the other options follow. */
+TEST_WITH(uncertainty_of_the_shown_option_is_first, set_up_options, tear_down)
 {
     const size_t shown = 1, n = 3;
-    const struct ceduo_uncertainty_result *a = &uncertainty(shown, 1)->answer;
+    const struct ceduo_uncertainty_result *a = &compute_uncertainty(shown, 1)->answer;
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
-    double p5 = f->fit.p5, p95 = f->fit.p95, leaves = f->fit.width_if_known[f->order[0]];
+    double p5 = f->fit.p5, p95 = f->fit.p95, width = f->fit.width_if_known[f->order[0]];
     EXPECT(p5, <, p95);
     for (size_t i = 0; i < n; i++)
         if (i != shown)
             EXPECT_NAN(ceduo_uncertainty_find_figure(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5);
     EXPECT_NAN(ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, true)->fit.p95);
     assert_int_equal(a->orders_count, 0);
-    a = &uncertainty(shown, UNCERTAINTY_LEVELS)->answer;
+    a = &compute_uncertainty(shown, UNCERTAINTY_LEVELS)->answer;
     f = ceduo_uncertainty_find_figure(a, shown, CEDUO_UNCERTAINTY_EXCEED, false);
     EXPECT(f->fit.p5, ==, p5);
     EXPECT(f->fit.p95, ==, p95);
-    EXPECT(f->fit.width_if_known[f->order[0]], ==, leaves);
+    EXPECT(f->fit.width_if_known[f->order[0]], ==, width);
     for (size_t i = 0; i < n; i++)
         EXPECT(ceduo_uncertainty_find_figure(a, i, CEDUO_UNCERTAINTY_EXCEED, false)->fit.p5, >, 0);
     assert_int_equal(a->orders_count, n - 1);
     assert_true(a->rotation);
 }
 
-/* What is stopped ends soon, and nothing comes of it. */
+/* A stopped search ends soon, without a result. */
 TEST_WITH(a_search_is_stopped, set_up, tear_down)
 {
-    struct ceduo_search search = search_of(CEDUO_ROCKS_MAX);
+    struct ceduo_search search = make_search(CEDUO_ROCKS_MAX);
     ceduo_jobs_request(jobs, &(struct job_request){JOB_SEARCH, &file, .levels = 1, .search = &search});
     struct timespec moment = {.tv_nsec = 200000000};
     nanosleep(&moment, NULL);
-    assert_true(take().busy);
+    assert_true(collect().busy);
     double start = ceduo_clock();
     ceduo_jobs_stop(jobs, JOB_SEARCH);
     ceduo_jobs_wait(jobs, true);
-    EXPECT(ceduo_clock() - start, <, 1); /* 0.1 s where nobody else wants the machine */
-    take();
+    EXPECT(ceduo_clock() - start, <, 1); /* 0.1 s on an idle machine */
+    collect();
     assert_null(results.search);
 }

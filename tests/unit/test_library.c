@@ -299,8 +299,8 @@ TEST_WITH(a_scene_is_read_without_memory, folder_set_up, folder_tear_down)
 {
     char line[18000]; /* longer than an arena page */
     snprintf(line, sizeof line, "Profil%17000s\nEntfernung;H\xf6he\n0;90\n100;0\n", "");
-    put("line.csv", line);
-    put("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\nslope: line.csv\ncontrols_m: [90]\n");
+    folder_write("line.csv", line);
+    folder_write("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\nslope: line.csv\ncontrols_m: [90]\n");
     call_without_memory(read_in_folder);
 }
 
@@ -391,9 +391,9 @@ static void compare_figures(const struct figures *was, const char *locale)
 
 TEST_WITH(numbers_have_a_dot_in_every_locale, folder_set_up, folder_tear_down)
 {
-    put("line.csv", "x_m,z_m\n0,90.5\n60.25,40.5\n100,0\n");
-    put("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [90.5]\n"
-                      "slope: {csv: line.csv, segments: [{rn: 0.35, rt: 0.85, roughness_rad: 0.1}]}\n");
+    folder_write("line.csv", "x_m,z_m\n0,90.5\n60.25,40.5\n100,0\n");
+    folder_write("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [90.5]\n"
+                               "slope: {csv: line.csv, segments: [{rn: 0.35, rt: 0.85, roughness_rad: 0.1}]}\n");
     const struct figures was = read_figures();
     ROWS(EXPECT, (was.gravity, ==, 9.81), (was.rn, ==, .35), (was.diameter, ==, .75), (was.z, ==, -50),
          (was.control, ==, 90.5));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What simulated rocks say of what was seen, against closed forms: rocks that are all alike fly over level ground before
- * they strike it, or roll down a smooth slope. */
+/* Comparison of observations with simulated rocks, in closed form. All rocks are equal: they fly over level ground before they
+ * strike it, or roll down a smooth slope. */
 #include "expect.h"
 #include "local.h"
 
@@ -13,10 +13,10 @@
 
 #define ROCKS   100
 #define GRAVITY 9.81
-#define HIGH    100.0 /* m above ground, at the release */
-#define FAST    10.0  /* m/s, along */
+#define HEIGHT  100.0 /* m above ground, at the release */
+#define SPEED   10.0  /* m/s, horizontal */
 
-/* 200 m of level ground; or one slope of 1 in 2. */
+/* 200 m of level ground, or of a slope of 1 in 2 */
 static struct ground g;
 
 static void make_ground(double fall, double height, double vx, double vz)
@@ -24,37 +24,37 @@ static void make_ground(double fall, double height, double vx, double vz)
     ground_make(&g, 200, fall, height, vx, vz);
 }
 
-static struct ceduo_observation_fit look(struct ceduo_observation seen)
+static struct ceduo_observation_fit simulate(struct ceduo_observation observed)
 {
     LOCAL(ceduo_observer, observer);
     struct ceduo_observation_fit c;
-    EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_create(&observed, 1, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_simulate(observer, &g.scene, ROCKS, NULL, &c), ==, CEDUO_OK);
     return c;
 }
 
-static struct ceduo_observation something(enum ceduo_observed_kind kind)
+static struct ceduo_observation make_observation(enum ceduo_observed_kind kind)
 {
     return (struct ceduo_observation){
         .kind = kind, .x = NAN, .from = NAN, .to = NAN, .mean = NAN, .sd = NAN, .share_seen = NAN};
 }
 
-static struct ceduo_observation at(enum ceduo_observed_kind kind, double x)
+static struct ceduo_observation observe_at(enum ceduo_observed_kind kind, double x)
 {
-    struct ceduo_observation o = something(kind);
+    struct ceduo_observation o = make_observation(kind);
     o.x = x;
     return o;
 }
 
-static struct ceduo_observation along(enum ceduo_observed_kind kind, double from, double to)
+static struct ceduo_observation observe_along(enum ceduo_observed_kind kind, double from, double to)
 {
-    struct ceduo_observation o = something(kind);
+    struct ceduo_observation o = make_observation(kind);
     o.from = from;
     o.to = to;
     return o;
 }
 
-static struct ceduo_observation measured(struct ceduo_observation o, size_t n, double mean, double sd)
+static struct ceduo_observation set_mean(struct ceduo_observation o, size_t n, double mean, double sd)
 {
     o.n = n;
     o.mean = mean;
@@ -62,28 +62,28 @@ static struct ceduo_observation measured(struct ceduo_observation o, size_t n, d
     return o;
 }
 
-static struct ceduo_observation stops(size_t n, double *values)
+static struct ceduo_observation observe_stops(size_t n, double *values)
 {
-    struct ceduo_observation o = something(CEDUO_OBSERVED_STOPS);
+    struct ceduo_observation o = make_observation(CEDUO_OBSERVED_STOPS);
     o.n = n;
     o.values = values;
     return o;
 }
 
-/* The values of the first of n observations, of all rocks: to be freed. */
-static double *values_of(const struct ceduo_observation *seen, size_t n)
+/* Return the values of the first of n observations, one for each rock; caller frees. */
+static double *simulate_values(const struct ceduo_observation *observed, size_t n)
 {
     LOCAL(ceduo_observer, observer);
     double *values;
     size_t rocks;
-    EXPECT(ceduo_observer_create(seen, n, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_create(observed, n, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_values(observer, &g.scene, 0, ROCKS, &values, &rocks), ==, CEDUO_OK);
     EXPECT(rocks, ==, ROCKS);
     return values;
 }
 
-/* Trees from a place to 100 m, of wood that takes u for each cubic metre; for one scene at a time. */
-static struct ceduo_belt *belt_of(double from, struct ceduo_stems stems, double u)
+/* Return a belt from `from` to 100 m whose wood absorbs u for each cubic metre. For one scene at a time. */
+static struct ceduo_belt *make_belt(double from, struct ceduo_stems stems, double u)
 {
     static struct ceduo_stems tree;
     static struct ceduo_belt belt;
@@ -95,77 +95,78 @@ static struct ceduo_belt *belt_of(double from, struct ceduo_stems stems, double 
 
 /* ---- counts and classes ---- */
 
-/* All 100 rocks pass: half a rock more in each class gives 100.5/101. Three of four were seen to. */
+/* All 100 simulated rocks pass: half a rock more in each class gives 100.5/101. Three of four observed rocks passed. */
 TEST(a_count_is_binomial)
 {
-    make_ground(0, HIGH, FAST, 0);
-    struct ceduo_observation o = at(CEDUO_OBSERVED_PASSED, 10);
+    make_ground(0, HEIGHT, SPEED, 0);
+    struct ceduo_observation o = observe_at(CEDUO_OBSERVED_PASSED, 10);
     o.count = 3;
     o.released_count = 4;
-    struct ceduo_observation_fit c = look(o);
+    struct ceduo_observation_fit c = simulate(o);
     double p = 100.5 / 101;
     EXPECT(c.classes, ==, 2);
     EXPECT_NEAR(c.log_likelihood, log(4) + 3 * log(p) + log(1 - p), 1e-12);
     EXPECT_NEAR(c.deviance, 2 * (3 * log(0.75 / p) + log(0.25 / (1 - p))), 1e-12);
 }
 
-/* All rocks come to rest at one place: where they strike the ground, and v²/(2 g mu) further. */
+/* Return x of the stop of all rocks: v²/(2 g mu) beyond the point of the first contact. */
 static double rest_x(void)
 {
-    double v = FAST;
-    return FAST * sqrt(2 * HIGH / GRAVITY) + v * v / (2 * GRAVITY * 0.25);
+    double v = SPEED;
+    return SPEED * sqrt(2 * HEIGHT / GRAVITY) + v * v / (2 * GRAVITY * 0.25);
 }
 
 TEST(stops_are_multinomial)
 {
-    double at = rest_x(), values[10];
-    make_ground(0, HIGH, FAST, 0);
-    for (int i = 0; i < 10; i++) /* five before it, five behind; the median is 4 m behind it */
-        values[i] = at + (i < 5 ? i - 5 : 5 + i);
-    struct ceduo_observation o = stops(10, values);
-    struct ceduo_observation_fit c = look(o);
+    double stop = rest_x(), values[10];
+    make_ground(0, HEIGHT, SPEED, 0);
+    for (int i = 0; i < 10; i++) /* five before it, five beyond; the median is 4 m beyond it */
+        values[i] = stop + (i < 5 ? i - 5 : 5 + i);
+    struct ceduo_observation o = observe_stops(10, values);
+    struct ceduo_observation_fit c = simulate(o);
     double p[2] = {100.5 / 101, 0.5 / 101};
     EXPECT(c.classes, ==, 2);
     EXPECT(c.count[0], ==, 100);
-    EXPECT_NEAR(c.mean, at, 1e-9);
+    EXPECT_NEAR(c.mean, stop, 1e-9);
     EXPECT_NEAR(c.log_likelihood, log(252) + 5 * log(p[0]) + 5 * log(p[1]), 1e-10);
     EXPECT_NEAR(c.deviance, 2 * (5 * log(0.5 / p[0]) + 5 * log(0.5 / p[1])), 1e-10);
-    o.released_count = 12; /* two more did not stop: a class of their own */
-    c = look(o);
+    o.released_count = 12; /* two more did not stop: an extra class */
+    c = simulate(o);
     EXPECT(c.classes, ==, 3);
     EXPECT(c.observed[2], ==, 2);
     EXPECT(c.count[2], ==, 0);
     /* 12!/(5!5!2!) ways; 101.5 = 100 + 3/2 */
     EXPECT_NEAR(c.log_likelihood, log(16632) + 5 * log(100.5 / 101.5) + 5 * log(0.5 / 101.5) + 2 * log(0.5 / 101.5), 1e-10);
-    o.from = at + 1; /* nobody looked where they lie: none is of it, and two classes want twenty rocks */
+    o.from = stop + 1; /* simulated stops lie outside the surveyed part: no rock counts, and two classes need twenty rocks */
     o.released_count = 0;
-    c = look(o);
+    c = simulate(o);
     EXPECT(c.rocks, ==, 0);
     EXPECT_NEAR(c.log_likelihood, log(252) + 10 * log(0.5 / 21), 1e-10);
 }
 
-/* k = min(10, n/5) classes, and two at the least. */
-TEST(a_list_has_classes_of_its_own)
+/* k = min(10, n/5) classes, at least two. */
+TEST(lists_are_binned_at_their_quantiles)
 {
     static const struct {
         size_t n, classes, first, last;
     } cases[] = {{1, 2, 1, 0}, {2, 2, 1, 1}, {9, 2, 5, 4}, {15, 3, 5, 5}, {48, 9, 5, 5}, {50, 10, 5, 5}, {200, 10, 20, 20}};
-    make_ground(0, HIGH, FAST, 0);
+    make_ground(0, HEIGHT, SPEED, 0);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         double values[200];
         for (size_t k = 0; k < cases[i].n; k++)
             values[k] = 20 + (double)k;
-        struct ceduo_observation_fit c = look(stops(cases[i].n, values));
+        struct ceduo_observation_fit c = simulate(observe_stops(cases[i].n, values));
         EXPECT(c.classes, ==, cases[i].classes);
         EXPECT(c.observed[0], ==, (double)cases[i].first);
         EXPECT(c.observed[c.classes - 1], ==, (double)cases[i].last);
     }
-    double alike[10] = {30, 30, 30, 30, 30, 30, 30, 30, 30, 30};
-    EXPECT(look(stops(10, alike)).observed[0], ==, 10); /* nothing is split that is alike */
-    double mostly[20];
+    double equal[10] = {30, 30, 30, 30, 30, 30, 30, 30, 30, 30};
+    EXPECT(simulate(observe_stops(10, equal)).observed[0], ==, 10); /* equal values are not split */
+    double two_values[20];
     for (int i = 0; i < 20; i++)
-        mostly[i] = i < 18 ? 30 : 31;
-    struct ceduo_observation_fit c = look(stops(20, mostly)); /* of four classes those with a bound of their own */
+        two_values[i] = i < 18 ? 30 : 31;
+    struct ceduo_observation_fit c =
+        simulate(observe_stops(20, two_values)); /* only two of four classes have bounds of their own */
     EXPECT(c.classes, ==, 2);
     EXPECT(c.observed[0], ==, 18);
     EXPECT(c.observed[1], ==, 2);
@@ -173,19 +174,19 @@ TEST(a_list_has_classes_of_its_own)
 
 /* ---- means ---- */
 
-/* Seen with an error that equals its distance to the simulated mean, which has none: z = 1. */
-static void expect_mean(struct ceduo_observation o, double mean, double within)
+/* Observe a mean with a standard error equal to its distance from the simulated mean, which has no error: z = 1. */
+static void expect_mean(struct ceduo_observation o, double mean, double tolerance)
 {
-    struct ceduo_observation_fit c = look(measured(o, 4, mean + 1, 2));
+    struct ceduo_observation_fit c = simulate(set_mean(o, 4, mean + 1, 2));
     EXPECT(c.classes, ==, 0);
     EXPECT(c.rocks, ==, ROCKS);
-    EXPECT_NEAR(c.mean, mean, within);
+    EXPECT_NEAR(c.mean, mean, tolerance);
     EXPECT_NEAR(c.variance, 1, 1e-9);
-    EXPECT_NEAR(c.deviance, 1, 2.1 * within + 1e-9);
-    EXPECT_NEAR(c.log_likelihood, -0.5 - log(2 * M_PI) / 2, 2.1 * within + 1e-9);
+    EXPECT_NEAR(c.deviance, 1, 2.1 * tolerance + 1e-9);
+    EXPECT_NEAR(c.log_likelihood, -0.5 - log(2 * M_PI) / 2, 2.1 * tolerance + 1e-9);
 }
 
-static double mass(void)
+static double rock_mass(void)
 {
     return 2600 * M_PI / 6;
 }
@@ -193,106 +194,111 @@ static double mass(void)
 /* After 10 m in flight: one second. */
 TEST(means_are_normal)
 {
-    make_ground(0, HIGH, FAST, 0);
-    double speed2 = FAST * FAST + GRAVITY * GRAVITY;
-    expect_mean(at(CEDUO_OBSERVED_SPEED, 10), sqrt(speed2), 1e-9);
-    expect_mean(at(CEDUO_OBSERVED_HEIGHT, 10), HIGH - GRAVITY / 2, 1e-9);
-    expect_mean(at(CEDUO_OBSERVED_ENERGY, 10), mass() * speed2 / 2, 1e-6);
+    make_ground(0, HEIGHT, SPEED, 0);
+    double speed2 = SPEED * SPEED + GRAVITY * GRAVITY;
+    expect_mean(observe_at(CEDUO_OBSERVED_SPEED, 10), sqrt(speed2), 1e-9);
+    expect_mean(observe_at(CEDUO_OBSERVED_HEIGHT, 10), HEIGHT - GRAVITY / 2, 1e-9);
+    expect_mean(observe_at(CEDUO_OBSERVED_ENERGY, 10), rock_mass() * speed2 / 2, 1e-6);
 }
 
-/* Of rocks that differ, the error of the simulated mean counts as well. */
+/* If rocks differ, the error of the simulated mean counts as well. */
 TEST(a_mean_has_the_error_of_both_sides)
 {
-    make_ground(0, HIGH, FAST, 0);
+    make_ground(0, HEIGHT, SPEED, 0);
     g.scene.release.vx.spread = 2;
-    struct ceduo_observation o = measured(at(CEDUO_OBSERVED_SPEED, 10), 400, 15, 2);
-    struct ceduo_observation_fit c = look(o);
-    LOCAL_BYTES double *values = values_of(&o, 1);
+    struct ceduo_observation o = set_mean(observe_at(CEDUO_OBSERVED_SPEED, 10), 400, 15, 2);
+    struct ceduo_observation_fit c = simulate(o);
+    LOCAL_BYTES double *values = simulate_values(&o, 1);
     double mean = gsl_stats_mean(values, 1, ROCKS), variance = 0.01 + gsl_stats_variance(values, 1, ROCKS) / ROCKS;
     EXPECT(variance, >, 0.011);
     EXPECT_NEAR(c.variance, variance, 1e-12);
     EXPECT_NEAR(c.deviance, (15 - mean) * (15 - mean) / variance, 1e-9 * c.deviance);
 }
 
-TEST(no_rock_there_is_impossible)
+TEST(a_mean_without_rocks_is_impossible)
 {
-    make_ground(0, HIGH, FAST, 0);
-    struct ceduo_observation_fit c = look(measured(at(CEDUO_OBSERVED_SPEED, 190), 4, 10, 2));
+    make_ground(0, HEIGHT, SPEED, 0);
+    struct ceduo_observation_fit c = simulate(set_mean(observe_at(CEDUO_OBSERVED_SPEED, 190), 4, 10, 2));
     EXPECT(c.rocks, ==, 0);
     EXPECT(c.log_likelihood, <, -1000);
 }
 
-/* ---- on the way ---- */
+/* ---- along the trajectory ---- */
 
-TEST(the_largest_is_at_an_end_or_on_top)
+TEST(maxima_are_at_an_end_or_on_top)
 {
-    struct ceduo_observation speed = something(CEDUO_OBSERVED_LARGEST_SPEED), height = something(CEDUO_OBSERVED_LARGEST_HEIGHT);
-    make_ground(0, HIGH, FAST, 0);
-    expect_mean(speed, sqrt(FAST * FAST + 2 * GRAVITY * HIGH), 1e-9);
-    expect_mean(height, HIGH, 1e-9);
-    make_ground(0, 1, FAST, 5); /* thrown up: 5²/2g higher */
+    struct ceduo_observation speed = make_observation(CEDUO_OBSERVED_LARGEST_SPEED),
+                             height = make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT);
+    make_ground(0, HEIGHT, SPEED, 0);
+    expect_mean(speed, sqrt(SPEED * SPEED + 2 * GRAVITY * HEIGHT), 1e-9);
+    expect_mean(height, HEIGHT, 1e-9);
+    make_ground(0, 1, SPEED, 5); /* thrown upwards: 5²/2g higher */
     expect_mean(height, 1 + 25 / (2 * GRAVITY), 1e-9);
-    make_ground(100, 0, FAST, FAST); /* off a slope of 1 in 2: highest above it where the flight is parallel to it */
-    double t = (FAST + FAST / 2) / GRAVITY;
-    expect_mean(height, FAST * t - GRAVITY / 2 * t * t + FAST / 2 * t, 1e-9);
+    make_ground(100, 0, SPEED, SPEED); /* thrown off a slope of 1 in 2: highest above it when the flight is parallel to it */
+    double t = (SPEED + SPEED / 2) / GRAVITY;
+    expect_mean(height, SPEED * t - GRAVITY / 2 * t * t + SPEED / 2 * t, 1e-9);
 }
 
-/* Over the first 10 m of a flight of one second, metre by metre. */
+/* Means over the first 10 m of a flight of one second, metre by metre. */
 TEST(means_along_a_flight)
 {
-    make_ground(0, HIGH, FAST, 0);
-    expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 10), HIGH - GRAVITY / 6, 1e-9);
-    expect_mean(along(CEDUO_OBSERVED_WAY_ENERGY, 0, 10), mass() / 2 * (FAST * FAST + GRAVITY * GRAVITY / 3), 1e-5);
+    make_ground(0, HEIGHT, SPEED, 0);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 10), HEIGHT - GRAVITY / 6, 1e-9);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_ENERGY, 0, 10), rock_mass() / 2 * (SPEED * SPEED + GRAVITY * GRAVITY / 3),
+                1e-5);
     double sum = 0; /* by Simpson's rule over small steps */
     for (int i = 0; i < 1000; i++)
         for (int k = 0; k < 3; k++) {
             double v = GRAVITY * (i + k / 2.0) / 1000;
-            sum += (k == 1 ? 4 : 1) * sqrt(FAST * FAST + v * v) / 6000;
+            sum += (k == 1 ? 4 : 1) * sqrt(SPEED * SPEED + v * v) / 6000;
         }
-    expect_mean(along(CEDUO_OBSERVED_WAY_SPEED, 0, 10), sum, 1e-9);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_SPEED, 0, 10), sum, 1e-9);
 }
 
-/* The same to the other side: from 100 m back over the last 10 of them. */
+/* The same backwards: from 100 m, over the last 10 m before it. */
 TEST(a_flight_back)
 {
-    make_ground(0, HIGH, -FAST, 0);
+    make_ground(0, HEIGHT, -SPEED, 0);
     g.scene.release.x = ceduo_number(100);
-    expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 90, 100), HIGH - GRAVITY / 6, 1e-9);
-    expect_mean(along(CEDUO_OBSERVED_WAY_ENERGY, 90, 100), mass() / 2 * (FAST * FAST + GRAVITY * GRAVITY / 3), 1e-5);
-    expect_mean(something(CEDUO_OBSERVED_LARGEST_HEIGHT), HIGH, 1e-9);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 90, 100), HEIGHT - GRAVITY / 6, 1e-9);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_ENERGY, 90, 100), rock_mass() / 2 * (SPEED * SPEED + GRAVITY * GRAVITY / 3),
+                1e-5);
+    expect_mean(make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT), HEIGHT, 1e-9);
 }
 
-/* Over an edge at 10 m, beyond which it falls 1 in 2: highest above the ground where the flight is parallel to the slope. */
+/* Flight over an edge at 10 m, beyond which the ground falls 1 in 2: the rock is highest above the ground when its flight is
+ * parallel to the slope. */
 TEST(a_flight_over_an_edge)
 {
     static double x[3] = {0, 10, 200}, z[3] = {0, 0, -95};
     struct ceduo_segment two[2];
-    double v = 2 * FAST, edge = 10 / v, top = v / 2 / GRAVITY;
+    double v = 2 * SPEED, edge = 10 / v, top = v / 2 / GRAVITY;
     make_ground(0, 5, v, 0);
     two[0] = two[1] = g.segment;
     g.scene.slope = (struct ceduo_slope){.vertices = 3, .x = x, .z = z, .segments = two, .segments_given = 2};
-    expect_mean(something(CEDUO_OBSERVED_LARGEST_HEIGHT), 5 - GRAVITY / 2 * top * top + (v * top - 10) / 2, 1e-9);
+    expect_mean(make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT), 5 - GRAVITY / 2 * top * top + (v * top - 10) / 2, 1e-9);
     double sum = 5 * top - GRAVITY / 6 * top * top * top + v / 4 * (top - edge) * (top - edge);
-    expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, v * top), sum / top, 1e-9);
-    expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 10), 5 - GRAVITY / 6 * edge * edge, 1e-9); /* up to the edge */
-    g.scene.release.x = ceduo_number(10);                                                      /* and back from there */
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 0, v * top), sum / top, 1e-9);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 10), 5 - GRAVITY / 6 * edge * edge, 1e-9); /* up to the edge */
+    g.scene.release.x = ceduo_number(10);                                                              /* and back from there */
     g.scene.release.vx = ceduo_number(-2);
-    expect_mean(something(CEDUO_OBSERVED_LARGEST_HEIGHT), 5, 1e-9);
+    expect_mean(make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT), 5, 1e-9);
 }
 
-/* A roll down 1 in 2 with friction 0.25: v² grows by 2 g (sin - mu cos) for each metre of ground. */
+/* Roll down 1 in 2 with friction 0.25: v² grows by 2 g (sin - mu cos) for each metre of ground. */
 TEST(means_along_a_roll)
 {
     double cosine = 2 / sqrt(5), sine = 1 / sqrt(5), gain = 2 * GRAVITY * (sine - 0.25 * cosine) / cosine;
-    make_ground(100, 0, FAST * cosine, -FAST * sine);
-    expect_mean(along(CEDUO_OBSERVED_WAY_ENERGY, 0, 50), mass() / 2 * (FAST * FAST + gain * 25), 1e-4);
-    double end2 = FAST * FAST + gain * 50;
-    expect_mean(along(CEDUO_OBSERVED_WAY_SPEED, 0, 50), 2 / (3 * gain * 50) * (pow(end2, 1.5) - pow(FAST, 3)), 1e-6);
-    expect_mean(along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 50), 0, 1e-9);
-    EXPECT(look(measured(along(CEDUO_OBSERVED_WAY_HEIGHT, 300, 310), 3, 1, 1)).rocks, ==, 0); /* nobody comes there */
+    make_ground(100, 0, SPEED * cosine, -SPEED * sine);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_ENERGY, 0, 50), rock_mass() / 2 * (SPEED * SPEED + gain * 25), 1e-4);
+    double end2 = SPEED * SPEED + gain * 50;
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_SPEED, 0, 50), 2 / (3 * gain * 50) * (pow(end2, 1.5) - pow(SPEED, 3)), 1e-6);
+    expect_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 0, 50), 0, 1e-9);
+    EXPECT(simulate(set_mean(observe_along(CEDUO_OBSERVED_WAY_HEIGHT, 300, 310), 3, 1, 1)).rocks, ==,
+           0); /* no rock reaches it */
 }
 
-/* From rest: what it has lost in height and not to friction, m g (sin - mu cos)/cos for each metre, is in its speed and its spin. */
+/* From rest: the height lost, less friction, m g (sin - mu cos)/cos for each metre, is kinetic energy of motion and spin. */
 TEST(a_roll_from_rest)
 {
     double cosine = 2 / sqrt(5), sine = 1 / sqrt(5), gain = GRAVITY * (sine - 0.25 * cosine) / cosine;
@@ -300,21 +306,20 @@ TEST(a_roll_from_rest)
     for (size_t i = 0; i < 2; i++) {
         make_ground(100, 0, 0, 0);
         g.scene.simulation.law = laws[i];
-        expect_mean(along(CEDUO_OBSERVED_WAY_ENERGY, 0, 50), mass() * gain * 25, 1e-4);
-        double k = laws[i] == CEDUO_LAW_LUMPED ? 0 : 0.4; /* of a sphere */
-        expect_mean(along(CEDUO_OBSERVED_WAY_SPEED, 0, 50), 2. / 3 * sqrt(2 * gain / (1 + k) * 50), 1e-6);
+        expect_mean(observe_along(CEDUO_OBSERVED_WAY_ENERGY, 0, 50), rock_mass() * gain * 25, 1e-4);
+        double k = laws[i] == CEDUO_LAW_LUMPED ? 0 : 0.4; /* sphere */
+        expect_mean(observe_along(CEDUO_OBSERVED_WAY_SPEED, 0, 50), 2. / 3 * sqrt(2 * gain / (1 + k) * 50), 1e-6);
     }
 }
 
-/* A fall straight down. */
 TEST(a_fall)
 {
-    make_ground(0, HIGH, 0, 0);
-    expect_mean(something(CEDUO_OBSERVED_LARGEST_HEIGHT), HIGH, 1e-9);
-    expect_mean(something(CEDUO_OBSERVED_LARGEST_SPEED), sqrt(2 * GRAVITY * HIGH), 1e-9);
+    make_ground(0, HEIGHT, 0, 0);
+    expect_mean(make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT), HEIGHT, 1e-9);
+    expect_mean(make_observation(CEDUO_OBSERVED_LARGEST_SPEED), sqrt(2 * GRAVITY * HEIGHT), 1e-9);
 }
 
-/* ---- rocks are those of a run ---- */
+/* ---- recorded rocks ---- */
 
 static void make_rough(void)
 {
@@ -325,24 +330,26 @@ static void make_rough(void)
     g.segment.friction = 0.8;
 }
 
-/* A rough slope, so that rocks differ, and a law by which they spin: what is recorded of each rock is what its run keeps. */
+/* On a rough slope, so that rocks differ, with a law that has spin: recorded stops are those of the run. */
 TEST(recorded_rocks_are_those_of_a_run)
 {
     make_rough();
     double one = 50;
-    struct ceduo_observation two[2] = {stops(1, &one), measured(something(CEDUO_OBSERVED_LARGEST_SPEED), 2, 1, 1)};
-    LOCAL_BYTES double *recorded = values_of(two, 2), *run = values_of(two, 1);
+    struct ceduo_observation two[2] = {observe_stops(1, &one),
+                                       set_mean(make_observation(CEDUO_OBSERVED_LARGEST_SPEED), 2, 1, 1)};
+    LOCAL_BYTES double *recorded = simulate_values(two, 2), *run = simulate_values(two, 1);
     assert_memory_equal(recorded, run, ROCKS * sizeof *run);
 }
 
-/* Speed, height and energy at a place, of rocks that are followed and of those of a run. */
+/* Speed, height and energy at a place of recorded rocks are those of the run. */
 TEST(recorded_crossings_are_those_of_a_run)
 {
     make_rough();
     for (int k = 0; k < 3; k++) {
-        struct ceduo_observation two[2] = {measured(at((enum ceduo_observed_kind)(CEDUO_OBSERVED_SPEED + k), 60), 2, 1, 1),
-                                           measured(something(CEDUO_OBSERVED_LARGEST_SPEED), 2, 1, 1)};
-        LOCAL_BYTES double *recorded = values_of(two, 2), *run = values_of(two, 1);
+        struct ceduo_observation two[2] = {
+            set_mean(observe_at((enum ceduo_observed_kind)(CEDUO_OBSERVED_SPEED + k), 60), 2, 1, 1),
+            set_mean(make_observation(CEDUO_OBSERVED_LARGEST_SPEED), 2, 1, 1)};
+        LOCAL_BYTES double *recorded = simulate_values(two, 2), *run = simulate_values(two, 1);
         size_t reached = 0;
         for (size_t i = 0; i < ROCKS; i++) {
             assert_int_equal(isnan(recorded[i]), isnan(run[i]));
@@ -355,67 +362,68 @@ TEST(recorded_crossings_are_those_of_a_run)
     }
 }
 
-/* Places of one rock share its run; a rock and a release of its own, or another option, do not. By the index nothing is in the way. */
-TEST(what_is_of_its_own)
+/* Observations with the same rock, release and option share a run. By the index nothing stops a rock. */
+TEST(runs_are_shared)
 {
-    make_ground(0, HIGH, FAST, 0);
+    make_ground(0, HEIGHT, SPEED, 0);
     struct ceduo_rock_def small = g.scene.rock;
     struct ceduo_release slow = g.scene.release;
     struct ceduo_observation o[6];
     struct ceduo_observation_fit c[6];
     struct ceduo_option options[2] = {g.option, g.option};
     small.diameter = ceduo_number(0.5);
-    slow.vx = ceduo_number(FAST / 2);
-    options[1].belts = belt_of(1, (struct ceduo_stems){.per_ha = 1e5, .dbh = 1, .height = 100, .volume = 10, .age = NAN}, 1e7);
+    slow.vx = ceduo_number(SPEED / 2);
+    options[1].belts =
+        make_belt(1, (struct ceduo_stems){.per_ha = 1e5, .dbh = 1, .height = 100, .volume = 10, .age = NAN}, 1e7);
     options[1].belts_count = 1;
     g.scene.options = options;
     g.scene.options_count = 2;
     for (int i = 0; i < 6; i++)
-        o[i] = measured(at(i == 3 ? CEDUO_OBSERVED_SPEED : CEDUO_OBSERVED_ENERGY, i == 4 ? 5 : 10), 2, 1, 1);
+        o[i] = set_mean(observe_at(i == 3 ? CEDUO_OBSERVED_SPEED : CEDUO_OBSERVED_ENERGY, i == 4 ? 5 : 10), 2, 1, 1);
     o[1].rock = &small;
     o[2].release = &slow;
     o[5].option = 1;
     double seconds[6] = {1, 1, 2, 1, 0.5, 1};
-    for (int way = 0; way < 2; way++) {
+    for (int pass = 0; pass < 2; pass++) {
         LOCAL(ceduo_observer, observer);
-        if (way == 1)
+        if (pass == 1)
             g.scene.simulation.contact_model = CEDUO_INDEX;
         EXPECT(ceduo_observer_create(o, 6, &observer), ==, CEDUO_OK);
         EXPECT(ceduo_observer_simulate(observer, &g.scene, ROCKS, NULL, c), ==, CEDUO_OK);
         for (int i = 0; i < 6; i++) {
-            double v = i == 2 ? FAST / 2 : FAST, speed2 = v * v + GRAVITY * GRAVITY * seconds[i] * seconds[i];
-            if (i == 5 && way == 0)
+            double v = i == 2 ? SPEED / 2 : SPEED, speed2 = v * v + GRAVITY * GRAVITY * seconds[i] * seconds[i];
+            if (i == 5 && pass == 0)
                 EXPECT(c[i].rocks, ==, 0); /* stopped by stems */
             else
-                EXPECT_NEAR(c[i].mean, i == 3 ? sqrt(speed2) : mass() / (i == 1 ? 8 : 1) * speed2 / 2, 1e-6);
+                EXPECT_NEAR(c[i].mean, i == 3 ? sqrt(speed2) : rock_mass() / (i == 1 ? 8 : 1) * speed2 / 2, 1e-6);
         }
     }
     g.scene.simulation.contact_model = CEDUO_INDEX;
-    struct ceduo_observation largest = something(CEDUO_OBSERVED_LARGEST_HEIGHT);
+    struct ceduo_observation largest = make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT);
     largest.option = 1;
-    expect_mean(largest, HIGH, 1e-9);
+    expect_mean(largest, HEIGHT, 1e-9);
 }
 
-/* What was observed was observed of one rock, also where blocks of all sizes come down. */
-TEST(blocks_are_not_observed)
+/* Observations are of one rock, also in a scene with block sizes. */
+TEST(observations_are_of_one_rock)
 {
     static double volumes[] = {.05, 1};
     struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
-    make_ground(0, HIGH, FAST, 0);
+    make_ground(0, HEIGHT, SPEED, 0);
     g.scene.blocks = &blocks;
     g.scene.blocks_count = 1;
-    struct ceduo_observation o = measured(at(CEDUO_OBSERVED_ENERGY, 10), 2, 1, 1);
+    struct ceduo_observation o = set_mean(observe_at(CEDUO_OBSERVED_ENERGY, 10), 2, 1, 1);
     o.rock = &g.scene.rock;
-    struct ceduo_observation_fit c = look(o);
-    EXPECT_NEAR(c.mean, mass() * (FAST * FAST + GRAVITY * GRAVITY) / 2, 1e-6); /* after 1 s of free fall */
+    struct ceduo_observation_fit c = simulate(o);
+    EXPECT_NEAR(c.mean, rock_mass() * (SPEED * SPEED + GRAVITY * GRAVITY) / 2, 1e-6); /* after 1 s of free fall */
     EXPECT_NEAR(c.sd, 0, 1e-6);
 }
 
-/* Where the scene makes no sense, or nobody waits any longer, nothing is compared. */
-TEST(what_cannot_be_looked_at)
+/* An invalid scene or a cancelled simulation gives no comparison. */
+TEST(invalid_scenes_are_not_compared)
 {
-    make_ground(0, HIGH, FAST, 0);
-    struct ceduo_observation o[2] = {at(CEDUO_OBSERVED_SPEED, 10), something(CEDUO_OBSERVED_LARGEST_SPEED)};
+    make_ground(0, HEIGHT, SPEED, 0);
+    struct ceduo_observation o[2] = {observe_at(CEDUO_OBSERVED_SPEED, 10), make_observation(CEDUO_OBSERVED_LARGEST_SPEED)};
     struct ceduo_observer *observer;
     struct ceduo_observation_fit c[2];
     const atomic_bool cancelled = true;
@@ -439,55 +447,55 @@ TEST(scars_are_counted_and_measured)
 {
     const struct ceduo_stems tree = {.per_ha = 400, .dbh = 0.2, .height = 15, .volume = 0.2, .age = NAN};
     make_ground(80, 0, 5, -2);
-    g.option.belts = belt_of(0, tree, 1000);
+    g.option.belts = make_belt(0, tree, 1000);
     g.option.belts_count = 1;
-    struct ceduo_observation o = along(CEDUO_OBSERVED_SCARS, 20, 60);
+    struct ceduo_observation o = observe_along(CEDUO_OBSERVED_SCARS, 20, 60);
     double heights[3] = {0.4, 0.5, 0.6};
     o.n = 3;
     o.values = heights;
     struct ceduo_record record;
     struct ceduo_record_def def = {.scene = &g.scene, .option = &g.option, .rocks = ROCKS, .blows = true};
     EXPECT(ceduo_record(&def, &record), ==, CEDUO_OK);
-    double of[ROCKS] = {0}, sum = 0, square = 0;
+    double counts[ROCKS] = {0}, sum = 0, square = 0;
     for (size_t i = 0; i < record.blows_count; i++)
-        of[record.blows[i].rock] += record.blows[i].x >= 20 && record.blows[i].x <= 60;
+        counts[record.blows[i].rock] += record.blows[i].x >= 20 && record.blows[i].x <= 60;
     for (int i = 0; i < ROCKS; i++) {
-        sum += of[i];
-        square += of[i] * of[i];
+        sum += counts[i];
+        square += counts[i] * counts[i];
     }
-    struct ceduo_observation_fit heights_alone = look(o);
+    struct ceduo_observation_fit heights_alone = simulate(o);
     EXPECT(sum, >, 20);
     EXPECT((double)heights_alone.rocks, ==, sum);
     EXPECT_NEAR(heights_alone.mean, 0.5, 0.05); /* rocks roll: their centre is half a metre above the ground */
     assert_true(isnan(heights_alone.scars));
     o.released_count = 10;
     o.share_seen = 0.75;
-    struct ceduo_observation_fit c = look(o);
+    struct ceduo_observation_fit c = simulate(o);
     double mean = sum / ROCKS, variance = (square - sum * mean) / (ROCKS - 1);
     double expected = 10 * mean * 0.75, spread = 0.75 * 0.75 * variance * 10 * 1.1 + 10 * mean * 0.75 * 0.25;
     EXPECT_NEAR(c.scars, expected, 1e-9);
     EXPECT_NEAR(c.deviance - heights_alone.deviance, (3 - expected) * (3 - expected) / spread, 1e-9);
-    o.share_seen = NAN; /* not known: all of them */
-    EXPECT_NEAR(look(o).scars, 10 * mean, 1e-9);
+    o.share_seen = NAN; /* NaN: all scars were observed */
+    EXPECT_NEAR(simulate(o).scars, 10 * mean, 1e-9);
     ceduo_record_release(&record);
     atomic_bool cancelled = true;
     def.cancel = &cancelled;
     EXPECT(ceduo_record(&def, &record), ==, CEDUO_CANCELLED);
     assert_null(record.rocks);
     def.cancel = NULL;
-    g.scene.release.height = ceduo_number(100); /* over the trees: met, not hit */
+    g.scene.release.height = ceduo_number(100); /* above the trees: no impacts */
     g.option.belts->to = g.option.belts->to_given = 5;
     EXPECT(ceduo_record(&def, &record), ==, CEDUO_OK);
     EXPECT(record.blows_count, ==, 0);
     ceduo_record_release(&record);
 }
 
-/* Stems as strong as rock: where they stop a rock is where it lies. */
+/* Stems as strong as rock: a rock lies at the stem that stopped it. */
 TEST(rocks_lie_where_stems_stop_them)
 {
     const struct ceduo_stems tree = {.per_ha = 1e5, .dbh = 1, .height = 15, .volume = 10, .age = NAN};
     make_ground(80, 0, 5, -2);
-    g.option.belts = belt_of(1, tree, 1e7);
+    g.option.belts = make_belt(1, tree, 1e7);
     g.option.belts_count = 1;
     LOCAL_BY(ceduo_record_release) struct ceduo_record record;
     const struct ceduo_record_def def = {.scene = &g.scene, .option = &g.option, .rocks = 5, .blows = true};

@@ -226,8 +226,8 @@ TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
     expect_words(0, 200, "✔ YES: in every year of 25 at most 43 of 1000 rocks exceed 50 kJ; today 31 (YES)");
     set_share(&bare, .004, .001, .01);
     expect_words(0, 200,
-                 "✔ YES, also without forest: 4 of 1000 arrive with more than 50 kJ (at most 50 rocks accepted); 1–10 by the "
-                 "rocks");
+                 "✔ YES, also without forest: 4 of 1000 arrive with more than 50 kJ (at most 50 rocks accepted); 1–10 by "
+                 "sampling error");
     struct ceduo_control two[2] = {control, control};
     struct ceduo_arrivals bares[2] = {bare, bare}, woodeds[2] = {wooded, wooded};
     struct ceduo_years_summary aheads[2] = {years, years};

@@ -207,7 +207,7 @@ TEST(a_freshly_cut_stand_has_a_yield)
     static struct ceduo_stems empty[1];
     struct ceduo_belt belts[2];
     struct ceduo_option option = {.belts = belts, .belts_count = 1};
-    LOCAL_BY(ceduo_yield_release) struct ceduo_yield alone, beside;
+    LOCAL_BY(ceduo_yield_release) struct ceduo_yield alone, with_other;
     paper_site_init(&site);
     belts[0] = site.belts[0];
     belts[0].stand = (struct ceduo_stand){.species = site.belts[0].stand.species,
@@ -224,8 +224,8 @@ TEST(a_freshly_cut_stand_has_a_yield)
     EXPECT(alone.volume_today, ==, 0);
     EXPECT(alone.cut_per_year, >, 0);
     option.belts_count = 2;
-    assert_int_equal(ceduo_yield_compute(&option, 25, &beside), CEDUO_OK);
-    EXPECT(beside.cut_per_year, ==, alone.cut_per_year);
+    assert_int_equal(ceduo_yield_compute(&option, 25, &with_other), CEDUO_OK);
+    EXPECT(with_other.cut_per_year, ==, alone.cut_per_year);
 }
 
 /* The volume of belts is their mean weighted by length: 30 m and 90 m, one with twice the other's volume. */

@@ -154,9 +154,9 @@ static void expect_no_blocks(void)
 TEST(an_invalid_rock_has_no_figures)
 {
     paper_site_init(&site);
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory trajectory;
     site.control.measured_speed = 10;
-    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &trajectory, NULL), CEDUO_OK);
     site.scene.rock.diameter.mean = 0;
     struct ceduo_stand_result stand = ceduo_assess_stand(&site.scene, &site.belts[0]);
     assert_true(isnan(stand.adc_m) && isnan(stand.contacts) && isnan(stand.dissipated));
@@ -164,7 +164,7 @@ TEST(an_invalid_rock_has_no_figures)
     struct ceduo_index index = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
     assert_true(isnan(index.measured));
     EXPECT(index.contact, !=, CEDUO_PASS);
-    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
+    assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &trajectory, NULL), CEDUO_BAD_ROCK);
     assert_null(ceduo_tracer_create(&site.scene, NULL));
     expect_no_blocks();
     /* valid itself, but too heavy at the size of the others */
@@ -307,7 +307,7 @@ TEST(tables_of_stools_have_a_limit)
     site.plots[0].shoots.per_ha = 1e10;
     site.belts[0].stand.spacing = 20;
     assert_true(ceduo_forest_init(&forest, simulation, &site.option, &rock));
-    assert_int_equal(forest.met_mask, ((size_t)1 << 20) - 1); /* more than the million stems of a way */
+    assert_int_equal(forest.met_mask, ((size_t)1 << 20) - 1); /* more than a million stems on one trajectory */
     ceduo_forest_release(&forest);
 }
 

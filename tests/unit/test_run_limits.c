@@ -55,29 +55,29 @@ static void count_stem(void *context, const struct ceduo_stem_encounter *stem)
 /* Callbacks for segments, stems or nothing change no result. */
 TEST(callbacks_change_nothing)
 {
-    unsigned seen;
-    const struct ceduo_trajectory_callbacks watches[] = {{NULL, count_piece, count_stem, &seen},
-                                                         {NULL, count_piece, NULL, &seen},
-                                                         {NULL, NULL, count_stem, &seen},
-                                                         {NULL, NULL, NULL, &seen}};
+    unsigned count;
+    const struct ceduo_trajectory_callbacks watches[] = {{NULL, count_piece, count_stem, &count},
+                                                         {NULL, count_piece, NULL, &count},
+                                                         {NULL, NULL, count_stem, &count},
+                                                         {NULL, NULL, NULL, &count}};
     paper_site_init(&site);
     site.plots[0].shoots.height = site.plots[1].trees.height = .3; /* the rock flies over some */
     for (uint64_t rock = 0; rock < 60; rock++) {
         const struct ceduo_option *option = rock % 2 == 0 ? &site.option : NULL;
-        struct ceduo_trajectory alone, way;
+        struct ceduo_trajectory alone, trajectory;
         assert_int_equal(ceduo_trajectory_run(&site.scene, option, rock, NULL, &alone, NULL), CEDUO_OK);
         for (int i = 0; i < 4; i++) {
-            seen = 0;
-            assert_int_equal(ceduo_trajectory_run(&site.scene, option, rock, &watches[i], &way, NULL), CEDUO_OK);
-            EXPECT(way.x, ==, alone.x);
-            EXPECT(way.z, ==, alone.z);
-            EXPECT(way.end, ==, alone.end);
-            EXPECT(way.contacts, ==, alone.contacts);
-            EXPECT(way.stems_hit, ==, alone.stems_hit);
-            EXPECT(way.stems_drawn, ==, alone.stems_drawn);
-            assert_int_equal(seen % 1000000 > 0, i < 2);
-            EXPECT(seen / 1000000, >=, (i % 2 == 0 ? alone.stems_hit : 0));
-            assert_true(i % 2 == 0 || seen < 1000000);
+            count = 0;
+            assert_int_equal(ceduo_trajectory_run(&site.scene, option, rock, &watches[i], &trajectory, NULL), CEDUO_OK);
+            EXPECT(trajectory.x, ==, alone.x);
+            EXPECT(trajectory.z, ==, alone.z);
+            EXPECT(trajectory.end, ==, alone.end);
+            EXPECT(trajectory.contacts, ==, alone.contacts);
+            EXPECT(trajectory.stems_hit, ==, alone.stems_hit);
+            EXPECT(trajectory.stems_drawn, ==, alone.stems_drawn);
+            assert_int_equal(count % 1000000 > 0, i < 2);
+            EXPECT(count / 1000000, >=, (i % 2 == 0 ? alone.stems_hit : 0));
+            assert_true(i % 2 == 0 || count < 1000000);
         }
     }
 }
@@ -108,7 +108,7 @@ TEST(a_rock_without_end)
     assert_int_equal(ceduo_run_contacts(run), CEDUO_CONTACTS_MAX);
 }
 
-struct alike {
+struct variants_log {
     int read[3]; /* times that each is simulated */
     size_t as[3];
 };
@@ -125,26 +125,26 @@ static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_vari
 static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run *run, uint64_t *more)
 {
     (void)run, (void)more;
-    ((struct alike *)context)->read[i]++;
+    ((struct variants_log *)context)->read[i]++;
     return CEDUO_OK;
 }
 
 static void same_variant(void *context, size_t i, size_t first)
 {
-    ((struct alike *)context)->as[i] = first;
+    ((struct variants_log *)context)->as[i] = first;
 }
 
 /* Without forest, with forest, without forest: the third equals the first. */
 TEST(equal_forests_are_simulated_once)
 {
-    struct alike alike = {0};
+    struct variants_log variants_log = {0};
     paper_site_init(&site);
     assert_int_equal(ceduo_variants_run(&(struct ceduo_variants){
-                         .n = 3, .context = &alike, .make = make_variant, .read = read_variant, .same = same_variant}),
+                         .n = 3, .context = &variants_log, .make = make_variant, .read = read_variant, .same = same_variant}),
                      CEDUO_OK);
-    assert_true(alike.read[0] == 1 && alike.read[1] == 1 && alike.read[2] == 0);
-    assert_int_equal(alike.as[2], 0);
-    assert_int_equal(alike.as[1], 0);
+    assert_true(variants_log.read[0] == 1 && variants_log.read[1] == 1 && variants_log.read[2] == 0);
+    assert_int_equal(variants_log.as[2], 0);
+    assert_int_equal(variants_log.as[1], 0);
 }
 
 /* Blocks of all sizes: the difference of two runs uses the rocks of both, whichever is longer. */
@@ -158,19 +158,19 @@ TEST(differences_of_blocks)
     struct ceduo_run_def bare = ceduo_run_def_default(&site.scene), wood = bare;
     wood.option = &site.option;
     double none[1];
-    struct ceduo_run *few = make_run(&wood, 50), *many = make_run(&wood, 120), *least = make_run(&bare, 50),
-                     *most = make_run(&bare, 120);
+    struct ceduo_run *few = make_run(&wood, 50), *many = make_run(&wood, 120), *bare_few = make_run(&bare, 50),
+                     *bare_many = make_run(&bare, 120);
     struct ceduo_run *empty = make_run(&bare, 0);
-    struct ceduo_difference wanted = ceduo_run_difference(few, least, 0);
+    struct ceduo_difference wanted = ceduo_run_difference(few, bare_few, 0);
     EXPECT(wanted.energy_per_released.mean, <, 0);
-    struct ceduo_difference first = ceduo_run_difference(few, most, 0), second = ceduo_run_difference(many, least, 0);
+    struct ceduo_difference first = ceduo_run_difference(few, bare_many, 0), second = ceduo_run_difference(many, bare_few, 0);
     assert_memory_equal(&first, &wanted, sizeof wanted);
     assert_memory_equal(&second, &wanted, sizeof wanted);
-    assert_true(isnan(ceduo_run_difference(empty, most, 0).reach.mean));
+    assert_true(isnan(ceduo_run_difference(empty, bare_many, 0).reach.mean));
     assert_true(isnan(ceduo_run_difference(few, empty, 0).reach.mean));
     EXPECT(ceduo_run_energies(empty, 0, none, 1), ==, 0);
     assert_null(ceduo_run_samples(empty, 0, CEDUO_SAMPLE_STOP)); /* no rocks */
-    struct ceduo_run *runs[] = {few, many, least, most, empty};
+    struct ceduo_run *runs[] = {few, many, bare_few, bare_many, empty};
     for (size_t i = 0; i < 5; i++)
         ceduo_run_free(runs[i]);
 }

@@ -34,7 +34,7 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_BY(ceduo_text_free) struct text text = scene_with(lines);
     char path[256];
-    put("scene.yaml", text.bytes);
+    folder_write("scene.yaml", text.bytes);
     in_folder(path, "scene.yaml");
     bool good = ceduo_scene_load(file, path, sets, n, &problems);
     if (good != !reported || problems.wrong.count != !good || (reported && !strstr(ceduo_problems_print(&problems), reported)))
@@ -186,8 +186,8 @@ TEST_WITH(draws_of_an_assumed_ground, folder_set_up, folder_tear_down)
                                          "slope.segments[1].rn", "slope.segments[1].rt"};
     static const double values[] = {0.75, 0.25, 0.75, 0.25, 0.75};
     struct scene_file file;
-    put("profile.csv", "x,z\n0,50\n40,20\n100,0\n");
-    put("draws.csv", "slope.materials[talus].rn,slope.segments[*].rt rock.density_kg_m3\n0.5,0.5\n0.25,0.75\n");
+    folder_write("profile.csv", "x,z\n0,50\n40,20\n100,0\n");
+    folder_write("draws.csv", "slope.materials[talus].rn,slope.segments[*].rt rock.density_kg_m3\n0.5,0.5\n0.25,0.75\n");
     read_scene(&file, lines, NULL, 0, NULL);
     assert_int_equal(file.inputs[0].places_count, LENGTH(places));
     assert_int_equal(file.inputs[0].draws_count, 2);
@@ -196,7 +196,7 @@ TEST_WITH(draws_of_an_assumed_ground, folder_set_up, folder_tear_down)
         EXPECT(file.inputs[0].draws[i][1], ==, values[i]);
     }
     ceduo_scene_release(&file);
-    put("draws.csv", "slope.materials[talus].rn\n0.25\n"); /* otherwise its place is in the file */
+    folder_write("draws.csv", "slope.materials[talus].rn\n0.25\n"); /* otherwise its place is in the file */
     read_scene(&file, "uncertainty: {draws: draws.csv}\n" CLIFF_AND_TALUS, NULL, 0, NULL);
     assert_int_equal(file.inputs[0].places_count, 1);
     assert_string_equal(file.inputs[0].places[0], "slope.segments[1].rn");
@@ -216,8 +216,8 @@ TEST_WITH(draws_of_many_columns, folder_set_up, folder_tear_down)
         ceduo_text_format(&draws, "%s0.%04d", c > 0 ? "," : "\n", c);
     }
     ceduo_text_append(&heads, draws.bytes);
-    put("profile.csv", profile.bytes);
-    put("draws.csv", heads.bytes);
+    folder_write("profile.csv", profile.bytes);
+    folder_write("draws.csv", heads.bytes);
     read_scene(&file, "slope: {csv: profile.csv, tolerance_m: 0}\nuncertainty: {draws: draws.csv}", NULL, 0, NULL);
     assert_int_equal(file.inputs[0].places_count, 6000);
     for (size_t i = 0; i < 6000; i++) {
@@ -297,7 +297,7 @@ TEST_WITH(a_stand_may_get_a_name, folder_set_up, folder_tear_down)
 {
     static const char *const sets[] = {"forest[0].stand.name=mine", "forest[0].stand.stools.per_ha=1500"};
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    put("stand.yaml", "{ceduo: stand/1, " SHOOTS "}\n");
+    folder_write("stand.yaml", "{ceduo: stand/1, " SHOOTS "}\n");
     read_scene(&file, "forest: [{from_m: 10, to_m: 80, stand: stand.yaml}]", sets, 2, NULL);
     assert_string_equal(file.scene.options[0].belts[0].name, "mine");
     assert_false(file.scene.options[0].belts[0].changed);
@@ -317,7 +317,7 @@ TEST_WITH(another_law_has_other_assumptions, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    put("profile.csv", "x,z\n0,50\n40,20\n100,0\n");
+    folder_write("profile.csv", "x,z\n0,50\n40,20\n100,0\n");
     read_scene(&file, "slope: profile.csv", NULL, 0, NULL);
     assert_int_equal(notes_of_mu(&file), 0);
     const char *const laws[] = {"arm", "arm", "lumped"};

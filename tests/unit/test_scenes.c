@@ -16,7 +16,7 @@ __attribute__((format(printf, 2, 3))) static void write_file(const char *name, c
     va_start(args, format);
     ceduo_text_vformat(&text, format, args);
     va_end(args);
-    put(name, text.bytes);
+    folder_write(name, text.bytes);
 }
 
 /* Read scene.yaml; put its problems into `messages`. */

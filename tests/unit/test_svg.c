@@ -71,9 +71,9 @@ TEST(curves_need_few_points)
         for (at += used; *at == 'L'; at += used, points++, px = qx, py = qy) {
             assert_int_equal(sscanf(at, "L%lf %lf%n", &qx, &qy, &used), 2);
             /* the centre of a chord is within its height above a circle of 200 units around (242, 278) */
-            double off = fabs(hypot((px + qx) / 2 - 242, (py + qy) / 2 - 278) - 200);
-            if (off > 0.7)
-                fail_msg("off by %g units after %d points", off, points);
+            double error = fabs(hypot((px + qx) / 2 - 242, (py + qy) / 2 - 278) - 200);
+            if (error > 0.7)
+                fail_msg("off by %g units after %d points", error, points);
         }
         EXPECT(points, <=, 80);
         free(picture);
@@ -133,12 +133,12 @@ TEST(a_rock_bouncing_in_a_pit_draws_little)
     enum { N = 20000 };
     static double x[N], y[N];
     size_t length[2];
-    for (int on = 0; on < 2; on++) {
+    for (int leaves = 0; leaves < 2; leaves++) {
         struct ceduo_svg *svg = ceduo_svg_create(100, 20);
         struct ceduo_frame frame = {.width = 100, .height = 20, .x1 = 199, .y1 = 79};
-        int n = on ? 1000 : N;
+        int n = leaves ? 1000 : N;
         for (int i = 0; i < n; i++) {
-            x[i] = on ? 199.0 * i / (n - 1) : 20 + 10 * sin(i);
+            x[i] = leaves ? 199.0 * i / (n - 1) : 20 + 10 * sin(i);
             y[i] = 40 + 30 * sin(1.7 * i);
         }
         struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
@@ -146,8 +146,8 @@ TEST(a_rock_bouncing_in_a_pit_draws_little)
         ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_TRAJECTORY, (size_t)n, x, y);
         ceduo_canvas_cloud_show(canvas, 0);
         LOCAL_BYTES char *picture = read_picture(svg);
-        length[on] = strlen(picture);
-        if (on)
+        length[leaves] = strlen(picture);
+        if (leaves)
             expect_has(picture, "L798 "); /* the last point: 199 dots of 4 units, from the centre of the first */
     }
     assert_true(length[0] < 10000);

@@ -26,26 +26,26 @@ struct derived_member {
         object, offsetof(struct type, member), sizeof((struct type *)0)->member                                                \
     }
 
-static void mark(bool *seen, size_t from, size_t n)
+static void mark(bool *is_member, size_t from, size_t n)
 {
     for (size_t i = 0; i < n; i++)
-        seen[from + i] = true;
+        is_member[from + i] = true;
 }
 
-static void mark_rows(bool *seen, const struct object *object, size_t size)
+static void mark_rows(bool *is_member, const struct object *object, size_t size)
 {
     for (size_t i = 0; i < object->n; i++) {
         const struct field *f = &object->fields[i];
         bool counted = f->type == FIELD_LIST || f->type == FIELD_NUMBERS || f->type == FIELD_POINTS;
         if (f->type == FIELD_GROUP && f->size == 0)
-            mark_rows(seen, f->object, size);
+            mark_rows(is_member, f->object, size);
         if (f->flags & FIELD_NO_MEMBER || f->offset >= size) /* or only in a draft */
             continue;
-        mark(seen, f->offset, f->size);
+        mark(is_member, f->offset, f->size);
         if (counted)
-            mark(seen, f->companion_offset, sizeof(size_t));
+            mark(is_member, f->companion_offset, sizeof(size_t));
         if (f->type == FIELD_NUMBER && f->flags & FIELD_PLACE)
-            mark(seen, f->companion_offset, sizeof(double));
+            mark(is_member, f->companion_offset, sizeof(double));
     }
 }
 
@@ -57,20 +57,20 @@ static void mark_rows(bool *seen, const struct object *object, size_t size)
 #endif
 #ifdef PADDING_IS_KNOWN
 #define SHORTEST_GAP 1
-#define MARK_PADDING(seen, type)                                                                                               \
+#define MARK_PADDING(is_member, type)                                                                                          \
     do {                                                                                                                       \
         type whole;                                                                                                            \
         memset(&whole, 0xff, sizeof whole);                                                                                    \
         __builtin_clear_padding(&whole);                                                                                       \
         for (size_t i = 0; i < sizeof whole; i++)                                                                              \
-            seen[i] |= ((unsigned char *)&whole)[i] == 0;                                                                      \
+            is_member[i] |= ((unsigned char *)&whole)[i] == 0;                                                                 \
     } while (0)
 #else
-#define SHORTEST_GAP             sizeof(double)
-#define MARK_PADDING(seen, type) (void)0
+#define SHORTEST_GAP                  sizeof(double)
+#define MARK_PADDING(is_member, type) (void)0
 #endif
 
-static void expect_whole(const char *name, const struct object *object, bool *seen, size_t size)
+static void expect_whole(const char *name, const struct object *object, bool *is_member, size_t size)
 {
     const struct object *scene = ceduo_schema_scene(), *belt = ceduo_schema_belt(), *slope = ceduo_schema_slope();
     const struct derived_member derived[] = {
@@ -90,12 +90,12 @@ static void expect_whole(const char *name, const struct object *object, bool *se
         DERIVED(belt, ceduo_belt, changed),
         DERIVED(belt, ceduo_belt, felled),
     };
-    mark_rows(seen, object, size);
+    mark_rows(is_member, object, size);
     for (size_t i = 0; i < LENGTH(derived); i++)
         if (derived[i].object == object)
-            mark(seen, derived[i].offset, derived[i].size);
+            mark(is_member, derived[i].offset, derived[i].size);
     for (size_t k = 0, unseen = 0; k < size; k++) {
-        unseen = seen[k] ? 0 : unseen + 1;
+        unseen = is_member[k] ? 0 : unseen + 1;
         if (unseen >= SHORTEST_GAP)
             fail_msg("%s: byte %zu of the structure belongs to no row", name, k);
     }
@@ -108,9 +108,9 @@ static const struct object *find_object(const struct object *object, const char 
 
 #define EXPECT_WHOLE(object, type)                                                                                             \
     do {                                                                                                                       \
-        bool seen[sizeof(struct type)] = {false};                                                                              \
-        MARK_PADDING(seen, struct type);                                                                                       \
-        expect_whole(#type, object, seen, sizeof seen);                                                                        \
+        bool is_member[sizeof(struct type)] = {false};                                                                         \
+        MARK_PADDING(is_member, struct type);                                                                                  \
+        expect_whole(#type, object, is_member, sizeof is_member);                                                              \
     } while (0)
 
 TEST(every_member_has_a_row)

@@ -68,15 +68,15 @@ TEST(all_points_are_used_without_a_tolerance)
 TEST(a_point_within_the_tolerance_is_dropped)
 {
     static const double points[][2] = {{0, 20}, {5, 15.4}, {10, 10}, {15, 9}, {20, 10}};
-    static const double kept[][2] = {{0, 20}, {10, 10}, {15, 9}, {20, 10}};
+    static const double expected[][2] = {{0, 20}, {10, 10}, {15, 9}, {20, 10}};
     struct profile p;
     struct ceduo_slope to;
     profile_make(&p, LENGTH(points), points, .5);
     simplify(&p, 0, &to);
-    assert_int_equal(to.vertices, LENGTH(kept));
-    for (size_t i = 0; i < LENGTH(kept); i++) {
-        EXPECT(to.x[i], ==, kept[i][0]);
-        EXPECT(to.z[i], ==, kept[i][1]);
+    assert_int_equal(to.vertices, LENGTH(expected));
+    for (size_t i = 0; i < LENGTH(expected); i++) {
+        EXPECT(to.x[i], ==, expected[i][0]);
+        EXPECT(to.z[i], ==, expected[i][1]);
     }
     ceduo_slope_simplified_free(&to);
     p.slope.tolerance = .28; /* below .4/sqrt(2) = .2828 */

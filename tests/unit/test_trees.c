@@ -41,9 +41,9 @@ static void expect_printable(const struct text *text)
 /* Write a tree in both ways and read it back. */
 static void expect_back(struct arena *arena, const struct node *node)
 {
-    for (int way = 0; way < 2; way++) {
+    for (int pass = 0; pass < 2; pass++) {
         LOCAL_TEXT(text);
-        if (way == 0)
+        if (pass == 0)
             ceduo_emit(&text, node);
         else
             ceduo_emit_flow(&text, node);

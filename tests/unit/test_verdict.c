@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* The live verdict: it comes with the first thousand rocks, what is known stays known while figures become finer, and
- * what was clear is not taken back. */
+/* Verdict while rocks are simulated: it appears with the first thousand rocks, stays known while figures are refined, and is
+ * never reversed once clear. */
 #include "expect.h"
 #include "local.h"
 
@@ -27,22 +27,22 @@ static void close_scene(void)
     ceduo_scene_release(&file);
 }
 
-/* The option that is clearly best: SIZE_MAX where none is. */
-static size_t clear_best(const struct ceduo_leader *leader)
+/* Return the option that is clearly best; SIZE_MAX: none. */
+static size_t find_clear_best(const struct ceduo_leader *leader)
 {
     return leader->known && leader->rivals == 0 ? leader->best : SIZE_MAX;
 }
 
-struct watch {
+struct progress {
     bool known;
     size_t best;
-    uint64_t rocks; /* of the first sentence */
+    uint64_t rocks; /* when first known */
 };
 
-/* Once known it stays known; once clear it stays that option. */
-static void watch(struct watch *w, const struct ceduo_leader *leader, uint64_t rocks)
+/* Check that a known verdict stays known, and a clear one names the same option. */
+static void check_progress(struct progress *w, const struct ceduo_leader *leader, uint64_t rocks)
 {
-    size_t best = clear_best(leader);
+    size_t best = find_clear_best(leader);
     if (w->known)
         assert_true(leader->known);
     else if (leader->known)
@@ -53,25 +53,25 @@ static void watch(struct watch *w, const struct ceduo_leader *leader, uint64_t r
     w->best = best != SIZE_MAX ? best : w->best;
 }
 
-static uint64_t fewest_rocks(void)
+static uint64_t min_rocks(void)
 {
-    uint64_t fewest = UINT64_MAX;
+    uint64_t rocks = UINT64_MAX;
     for (size_t i = 0; i < live.result->options_count; i++)
-        if (live.result->options[i].wooded.rocks < fewest)
-            fewest = live.result->options[i].wooded.rocks;
-    return fewest;
+        if (live.result->options[i].wooded.rocks < rocks)
+            rocks = live.result->options[i].wooded.rocks;
+    return rocks;
 }
 
 static void expect_beaten(const struct ceduo_verdict *v)
 {
     assert_true(v->choices[0].beaten && v->choices[1].beaten);
-    assert_false(v->choices[2].beaten || v->choices[3].beaten); /* one yields more, the other protects better */
+    assert_false(v->choices[2].beaten || v->choices[3].beaten); /* one yields more, the other one protects better */
 }
 
-TEST(what_is_clear_stays)
+TEST(a_clear_verdict_stays)
 {
-    struct watch today = {.best = SIZE_MAX}, rotation = {.best = SIZE_MAX};
-    size_t looks = 0, shares = 0;
+    struct progress today = {.best = SIZE_MAX}, rotation = {.best = SIZE_MAX};
+    size_t updates = 0, shares = 0;
     open_scene("profiles/scenes/rotation.yaml");
     ceduo_live_update(&live, &file, 1, 0, 0);
     while (live.busy) {
@@ -82,25 +82,25 @@ TEST(what_is_clear_stays)
         size_t known = 0;
         for (size_t i = 0; i < live.verdict.n; i++)
             known += isnan(live.verdict.choices[i].mean.mean) ? 0 : 1;
-        assert_true(known >= shares); /* no share goes back to unknown */
+        assert_true(known >= shares); /* no share becomes unknown again */
         shares = known;
-        watch(&today, &live.verdict.today, fewest_rocks());
-        watch(&rotation, &live.verdict.rotation, live.results.years ? live.results.years->rocks : 0);
-        looks++;
+        check_progress(&today, &live.verdict.today, min_rocks());
+        check_progress(&rotation, &live.verdict.rotation, live.results.years ? live.results.years->rocks : 0);
+        updates++;
     }
     assert_true(today.known && rotation.known);
-    EXPECT(today.rocks, ==, RUNS_FIRST); /* told from the first thousand rocks */
+    EXPECT(today.rocks, ==, RUNS_FIRST); /* known with the first thousand rocks */
     EXPECT(rotation.rocks, <=, 10 * RUNS_FIRST);
-    EXPECT(today.best, ==, 3);    /* the large reserves, whose standards are as thick as their curve has them, */
-    EXPECT(rotation.best, ==, 3); /* today and over the years */
-    EXPECT(looks, >, 6);          /* progress is shown */
+    EXPECT(today.best, ==, 3);    /* option 3, large reserves, is best */
+    EXPECT(rotation.best, ==, 3); /* today and over the rotation */
+    EXPECT(updates, >, 6);        /* progress is shown */
     EXPECT(live.results.years->done, ==, 4);
     expect_beaten(&live.verdict);
     close_scene();
 }
 
-/* An edit of one stand: the others' years stay, those of the old stand do not count. */
-TEST(an_edit_asks_for_its_years_alone)
+/* After an edit of one stand the years of other options stay, and the years of the old stand do not count. */
+TEST(an_edit_requests_only_its_years)
 {
     open_scene("profiles/scenes/rotation.yaml");
     file.scene.options_count = 2;
@@ -113,27 +113,28 @@ TEST(an_edit_asks_for_its_years_alone)
     belt->stand.cutting.stay_per_ha[1] *= 4;
     ceduo_live_update(&live, &file, 0, 0, 0);
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
-    assert_true(isnan(live.verdict.choices[1].mean.mean)); /* not that of the stand before */
+    assert_true(isnan(live.verdict.choices[1].mean.mean)); /* not the mean of the old stand */
     assert_false(live.verdict.rotation.known);
     ceduo_jobs_wait(live.jobs, true);
     ceduo_live_poll(&live, &file.scene);
     assert_true(live.verdict.rotation.known);
-    EXPECT(live.verdict.choices[1].mean.mean, <, before); /* four times as many of the second oldest */
+    EXPECT(live.verdict.choices[1].mean.mean, <, before); /* four times the trees of the second oldest class */
     close_scene();
 }
 
-static void follow_to_the_end(void)
+static void update_and_wait(void)
 {
     ceduo_live_update(&live, &file, 0, 0, 0);
     ceduo_jobs_wait(live.jobs, true);
     ceduo_live_poll(&live, &file.scene);
 }
 
-/* An edit of the energy law: what was known by the other law is now known by the scene's own, and no longer stands for the other. */
-TEST(an_edit_of_the_law_leaves_no_figures_of_the_other)
+/* After an edit of the energy law, figures of the alternative law become those of the scene's law, and no longer count as the
+ * alternative. */
+TEST(an_edit_of_the_law_keeps_no_alternative)
 {
     open_scene("profiles/scenes/paper-site.yaml");
-    follow_to_the_end();
+    update_and_wait();
     const struct ceduo_alternative_energy *other = &live.result->options[0].alternatives[0];
     assert_true(other->known);
     EXPECT(other->model, ==, CEDUO_DORREN);
@@ -141,55 +142,55 @@ TEST(an_edit_of_the_law_leaves_no_figures_of_the_other)
         file.scene.options[0].belts[i].stand.energy = CEDUO_DORREN;
     ceduo_live_update(&live, &file, 0, 0, 0);
     assert_false(live.result->options[0].alternatives[0].known);
-    follow_to_the_end();
+    update_and_wait();
     other = &live.result->options[0].alternatives[0];
     assert_true(other->known);
     EXPECT(other->model, ==, CEDUO_BRAUNER);
     close_scene();
 }
 
-/* An edit of the contact model: years of rocks among stems are no years of the index. */
-TEST(an_edit_of_the_contact_model_leaves_no_years)
+/* After an edit of the contact model, years of rocks among stems do not count for the index. */
+TEST(an_edit_of_the_contact_model_keeps_no_years)
 {
     open_scene("profiles/scenes/paper-site.yaml");
-    follow_to_the_end();
+    update_and_wait();
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     ceduo_live_update(&live, &file, 0, 0, 0);
     EXPECT(live.verdict.choices[0].last_summary->years, ==, 0);
-    follow_to_the_end();
+    update_and_wait();
     EXPECT(live.verdict.choices[0].last_summary->years, >, 0);
     EXPECT(live.verdict.choices[0].last_summary->simulated, ==, 0);
     EXPECT_NAN(live.verdict.choices[0].mean.mean);
     close_scene();
 }
 
-/* ---- made by hand ---- */
+/* ---- invented results ---- */
 
 #define OPTIONS 3
 #define ROCKS   1000
 
-/* Options with the forest of the first, and what rocks are said to have done there. It points into itself. */
-struct made {
+/* Options with the first option's forest and invented results. Contains pointers into itself. */
+struct made_results {
     struct ceduo_option options[OPTIONS];
     struct ceduo_arrivals bare, wooded[OPTIONS];
     struct ceduo_difference differences[OPTIONS];
     struct ceduo_alternative_energy alternatives[OPTIONS];
     struct ceduo_option_result found[OPTIONS];
-    struct ceduo_stand_result stands[2]; /* of the belts of each */
+    struct ceduo_stand_result stands[2]; /* for the belts of each option */
     struct ceduo_result result;
     struct ceduo_year year[OPTIONS];
     struct ceduo_index index;
     uint16_t marks[OPTIONS][ROCKS];
-    struct ceduo_years years[OPTIONS], *of[OPTIONS];
+    struct ceduo_years years[OPTIONS], *year_pointers[OPTIONS];
 };
 
-static struct made made;
+static struct made_results made;
 
-/* All alike: of the rocks half arrive with too much, today, under the other law and in the one year. */
-static void make_alike(void)
+/* Make equal results: half of the rocks exceed the limit, today, under the other law and in the one year. */
+static void make_equal_results(void)
 {
-    made = (struct made){.bare = {.released = ROCKS, .reached = ROCKS, .reach.mean = 1, .exceed.mean = 1}};
+    made = (struct made_results){.bare = {.released = ROCKS, .reached = ROCKS, .reach.mean = 1, .exceed.mean = 1}};
     made.result = (struct ceduo_result){.scene = &file.scene,
                                         .wooded = true,
                                         .bare = {.rocks = ROCKS, .controls = 1, .arrivals = &made.bare},
@@ -211,42 +212,43 @@ static void make_alike(void)
             made.marks[i][r] = r % 2;
         made.years[i] = (struct ceduo_years){
             .scene = file.scene, .window.step = 1, .count = 1, .years = &made.year[i], .rocks = ROCKS, .marks = made.marks[i]};
-        made.of[i] = &made.years[i];
+        made.year_pointers[i] = &made.years[i];
     }
     file.scene.options = made.options;
     file.scene.options_count = OPTIONS;
     made.index.contact = CEDUO_FAIL;
 }
 
-static struct ceduo_verdict verdict_of_made(struct ceduo_years *const *years)
+static struct ceduo_verdict make_verdict(struct ceduo_years *const *years)
 {
     struct ceduo_verdict v;
     EXPECT(ceduo_compare_options(&made.result, years, NULL, &v), ==, CEDUO_OK);
     return v;
 }
 
-static struct scene_file kept;
+static struct scene_file original;
 
-static int open_made(void **state)
+static int open_results(void **state)
 {
     (void)state;
     struct problems problems = {0};
     assert_true(ceduo_scene_load(&file, "profiles/scenes/rotation.yaml", NULL, 0, &problems));
     EXPECT(file.scene.controls_count, ==, 1);
-    kept = file;
-    make_alike();
+    original = file;
+    make_equal_results();
     return 0;
 }
 
-static int close_made(void **state)
+static int close_results(void **state)
 {
     (void)state;
-    ceduo_scene_release(&kept);
+    ceduo_scene_release(&original);
     return 0;
 }
 
-/* A share by the normal law; of none by Wilson's interval, z²/(n + z²); of rocks with weights by its own interval. */
-TEST(half_of_a_share)
+/* Half-width of a share: by the normal distribution; by Wilson's interval z²/(n + z²) if it is 0; by its own interval with
+ * weighted rocks. */
+TEST(half_width_of_a_share)
 {
     const double z = 1.959963984540054;
     struct ceduo_arrivals a = {.released = 400, .reach.mean = .5, .exceed.mean = .2, .hazard = {.per_year = NAN}};
@@ -262,40 +264,41 @@ TEST(half_of_a_share)
     EXPECT_NEAR(ceduo_share_judged(&a).half, .05, 1e-12);
 }
 
-/* Of two that are equal the first; the other is a rival, and equal. */
-TEST_WITH(of_two_equal_options_the_first, open_made, close_made)
+/* The first of two equal options is best; the other is a rival, and equal. */
+TEST_WITH(the_first_of_two_equal_options_is_best, open_results, close_results)
 {
     for (size_t i = 1; i < OPTIONS; i++)
         made.differences[i].exceed = (struct ceduo_estimate){-.2, .01, NAN, NAN};
-    LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = verdict_of_made(NULL);
+    LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = make_verdict(NULL);
     EXPECT(v.today.best, ==, 1);
     EXPECT(v.today.rivals, ==, 1);
     assert_true(v.today.rival[2] && v.today.equal);
 }
 
-/* Turned: the order is clear under one law, by 3 errors, and the other way round under the other, by one. */
-TEST_WITH(an_order_is_turned_by_more_than_an_error, open_made, close_made)
+/* The ranking is reversed if the difference exceeds 3 errors under one law, and 1 error in the opposite direction under the
+ * other. */
+TEST_WITH(a_ranking_is_reversed_by_more_than_an_error, open_results, close_results)
 {
     static const struct {
-        double today, other; /* errors by which option 1 is worse today, better under the other law */
-        size_t turned;
+        double today, other; /* difference in errors: option 1 worse today, better under the other law */
+        size_t reversed;
     } cases[] = {{4, .5, 0}, {.5, 4, 0}, {4, 1.5, 1}, {1.5, 4, 1}, {2.5, 2.5, 0}, {4, -4, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         made.differences[1].exceed = (struct ceduo_estimate){cases[i].today * .01, .01, NAN, NAN};
         made.alternatives[1].to_first.exceed = (struct ceduo_estimate){-cases[i].other * .01, .01, NAN, NAN};
         made.differences[2].exceed = made.alternatives[2].to_first.exceed = (struct ceduo_estimate){9, .01, NAN, NAN};
-        LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = verdict_of_made(NULL);
-        EXPECT(v.reversals_count, ==, cases[i].turned);
+        LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = make_verdict(NULL);
+        EXPECT(v.reversals_count, ==, cases[i].reversed);
         if (v.reversals_count > 0)
             assert_true(v.reversals[0].better == 0 && v.reversals[0].worse == 1);
     }
 }
 
-/* Of options that yield as much, 500 rocks of 1000 through the first are clearly more than 300, which 305 are not. Where all let as
- * many through, none is beaten. */
-TEST_WITH(beaten_by_one_of_equal_yield, open_made, close_made)
+/* With equal yields, 500 of 1000 rocks through the first option are clearly more than 300; 305 are not. If all options let the
+ * same number through, none is beaten. */
+TEST_WITH(beaten_by_an_option_of_equal_yield, open_results, close_results)
 {
-    struct ceduo_verdict v = verdict_of_made(made.of);
+    struct ceduo_verdict v = make_verdict(made.year_pointers);
     EXPECT(v.choices[0].yield.cut_per_year, >, 0);
     assert_false(v.choices[0].beaten || v.choices[1].beaten || v.choices[2].beaten);
     ceduo_verdict_release(&v);
@@ -303,16 +306,16 @@ TEST_WITH(beaten_by_one_of_equal_yield, open_made, close_made)
         made.marks[1][r] = r % 1000 >= 700;
         made.marks[2][r] = r % 1000 < 305;
     }
-    v = verdict_of_made(made.of);
+    v = make_verdict(made.year_pointers);
     assert_true(v.choices[0].beaten);
     assert_false(v.choices[1].beaten || v.choices[2].beaten);
     ceduo_verdict_release(&v);
 }
 
-/* How often the pane of options says "worst": above the column of the worst year, and beside an option. */
+/* Return how often the pane of options prints "worst": above the column of the worst year, and after an option. */
 static int count_worst(const struct ceduo_verdict *v)
 {
-    const struct ceduo_report report = {.file = &file, .result = &made.result, .verdict = v, .years_ahead = made.of};
+    const struct ceduo_report report = {.file = &file, .result = &made.result, .verdict = v, .years_ahead = made.year_pointers};
     LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 120};
     LOCAL_TEXT(text);
     int n = 0;
@@ -323,8 +326,8 @@ static int count_worst(const struct ceduo_verdict *v)
     return n;
 }
 
-/* An option is the worst if its interval lies above all others, and not if it is only the largest of two that overlap. */
-TEST_WITH(the_worst_is_apart_from_all_others, open_made, close_made)
+/* An option is the worst if its interval lies above all others, not if it is only the larger of two that overlap. */
+TEST_WITH(the_worst_exceeds_all_others, open_results, close_results)
 {
     static const struct {
         double mean[OPTIONS], half[OPTIONS];
@@ -334,7 +337,7 @@ TEST_WITH(the_worst_is_apart_from_all_others, open_made, close_made)
                  {{.3, .1, .29}, {.02, .02, .02}, 0},
                  {{.39, .1, .5}, {.05, .02, .05}, 1},
                  {{.9, .1, .5}, {.05, .02, .05}, 1}};
-    struct ceduo_verdict v = verdict_of_made(made.of);
+    struct ceduo_verdict v = make_verdict(made.year_pointers);
     for (size_t i = 0; i < OPTIONS; i++)
         made.found[i].controls = &made.index;
     v.rotation = (struct ceduo_leader){.known = true, .best = 1, .rival = v.rotation.rival};

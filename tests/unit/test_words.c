@@ -25,9 +25,9 @@ TEST(numbers_are_shown_with_their_digits)
 /* A figure near its limit is printed on the side on which it was judged; others have the usual digits. */
 TEST(figures_lie_on_their_side_of_a_limit)
 {
-    for (TABLE(row, "unit/words.txt", "beside a limit"))
+    for (TABLE(row, "unit/words.txt", "near a limit"))
         assert_string_equal(VS_LIMIT(strtod(row.at[0], NULL), 3, strtod(row.at[1], NULL)), row.at[2]);
-    for (TABLE(row, "unit/words.txt", "percent beside 10"))
+    for (TABLE(row, "unit/words.txt", "percent near 10"))
         assert_string_equal(PERCENT_VS_LIMIT(strtod(row.at[0], NULL), .1), row.at[1]);
 }
 
@@ -186,7 +186,8 @@ TEST(an_interval_is_rounded_outward)
 
 /* ---- one-line answer ---- */
 
-/* Of 1000 through the wood of 'a' so many with too much energy, and what may be true of that; of uncertainty NAN: not computed. */
+/* Set the share of rocks through the forest of option a that exceed the limit, and its 90 % range; NaN: uncertainty not
+ * computed. Expect this answer. */
 static void expect_answer(double share, double p5, double p95, size_t width, const char *wanted)
 {
     LOCAL_TEXT(text);
@@ -210,9 +211,9 @@ static void expect_answer(double share, double p5, double p95, size_t width, con
 TEST(an_answer_is_shortened_by_whole_clauses)
 {
     static const char *const shorter[] = {
-        "✘ NO: 479 of 1000 arrive with more than 50 kJ (at most 50 rocks accepted); may be 234–748",
-        "✘ NO: 479 of 1000 arrive with more than 50 kJ; may be 234–748",
-        "✘ NO: 479 of 1000 > 50 kJ; may be 234–748",
+        "✘ NO: 479 of 1000 arrive with more than 50 kJ (at most 50 rocks accepted); range 234–748",
+        "✘ NO: 479 of 1000 arrive with more than 50 kJ; range 234–748",
+        "✘ NO: 479 of 1000 > 50 kJ; range 234–748",
         "✘ NO: 479 of 1000 > 50 kJ",
         "✘ NO: 479 of 1000",
         "✘ NO"};
@@ -366,7 +367,7 @@ TEST(reasons_for_no_rotation)
     options[2].belts = &belts[1];
     options[1].belts_count = options[2].belts_count = 1;
     ceduo_words_windows(&scene.scene, add_line, &text);
-    assert_string_equal(ceduo_text_string(&text), "'a' does not change: no stem stands in it.\n"
+    assert_string_equal(ceduo_text_string(&text), "'a' does not change: it has no stems.\n"
                                                   "'b' does not change: stand 'old stand' has no growth and cutting data.\n"
                                                   "'c' grows and is never cut.\n");
 }

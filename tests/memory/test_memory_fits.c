@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
-/* Without memory: runs of blocks of all sizes, what was seen beside simulated rocks, fits, and surveys. */
+/* Runs with block sizes, observations, fits and surveys, without memory. */
 #include "local.h"
 #include "memory/failing.h"
 
@@ -16,9 +16,9 @@
 
 #define ROCKS 6
 
-/* 200 m that fall 80 m, trees on the first half; a rock of 1 m. */
+/* Slope of 200 m that falls 80 m, with trees on the first half; a rock of 1 m. */
 static struct {
-    struct ground of;
+    struct ground base;
     double volumes[2];
     struct ceduo_control control;
     struct ceduo_stems tree;
@@ -29,10 +29,10 @@ static struct {
 
 static void make_ground(void)
 {
-    struct ceduo_scene *s = &ground.of.scene;
+    struct ceduo_scene *s = &ground.base.scene;
     memset(&ground, 0, sizeof ground);
-    ground_make(&ground.of, 200, 80, 0, 5, 0);
-    ground.of.segment = (struct ceduo_segment){
+    ground_make(&ground.base, 200, 80, 0, 5, 0);
+    ground.base.segment = (struct ceduo_segment){
         .rn = ceduo_number(0.4), .rt = ceduo_number(0.9), .roughness_m = NAN, .roughness_rad = 0.2, .friction = 0.5, .mu = 0.5};
     s->release.height = ceduo_scene_default().release.height;
     ground.control = (struct ceduo_control){.x = 20, .x_given = 20, .accepted = 1e5, .measured_speed = NAN};
@@ -49,18 +49,18 @@ static void make_ground(void)
     s->simulation.rocks = ROCKS;
 }
 
-/* ---- blocks of all sizes ---- */
+/* ---- block sizes ---- */
 
-static bool ask_of_blocks(void)
+static bool simulate_sizes(void)
 {
     make_ground();
     ground.volumes[0] = 0.1;
     ground.volumes[1] = 1;
     ground.blocks = (struct ceduo_size_class){.per_year = 0.5, .exponent = 1.1, .volumes_count = 2, .volumes = ground.volumes};
-    ground.of.scene.blocks = &ground.blocks;
-    ground.of.scene.blocks_count = 1;
-    ground.of.scene.rocks_per_year = 0.5;
-    struct ceduo_request q = ceduo_request_default(&ground.of.scene);
+    ground.base.scene.blocks = &ground.blocks;
+    ground.base.scene.blocks_count = 1;
+    ground.base.scene.rocks_per_year = 0.5;
+    struct ceduo_request q = ceduo_request_default(&ground.base.scene);
     LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
     q.rocks = ROCKS;
     q.run.threads = 1;
@@ -78,94 +78,96 @@ static bool ask_of_blocks(void)
     return is_done(status);
 }
 
-/* ---- what was seen ---- */
+/* ---- observations ---- */
 
 static double stops[3] = {60, 80, 120}, scars[3] = {0.4, 0.5, 0.6};
 
-static struct ceduo_observation something(enum ceduo_observed_kind kind)
+static struct ceduo_observation make_observation(enum ceduo_observed_kind kind)
 {
     return (struct ceduo_observation){
         .kind = kind, .x = 20, .from = 10, .to = 40, .n = 3, .mean = 5, .sd = 1, .share_seen = NAN};
 }
 
-static void see(struct ceduo_observation seen[4])
+static void make_observations(struct ceduo_observation observed[4])
 {
-    seen[0] = something(CEDUO_OBSERVED_STOPS);
-    seen[0].from = NAN;
-    seen[0].values = stops;
-    seen[1] = something(CEDUO_OBSERVED_PASSED);
-    seen[1].count = 2;
-    seen[1].released_count = 3;
-    seen[2] = something(CEDUO_OBSERVED_SCARS);
-    seen[2].values = scars;
-    seen[2].released_count = 10;
-    seen[3] = something(CEDUO_OBSERVED_ENERGY);
-    seen[3].mean = 1e5;
-    seen[3].sd = 1e4;
-    seen[1].option = seen[3].option = 1;
+    observed[0] = make_observation(CEDUO_OBSERVED_STOPS);
+    observed[0].from = NAN;
+    observed[0].values = stops;
+    observed[1] = make_observation(CEDUO_OBSERVED_PASSED);
+    observed[1].count = 2;
+    observed[1].released_count = 3;
+    observed[2] = make_observation(CEDUO_OBSERVED_SCARS);
+    observed[2].values = scars;
+    observed[2].released_count = 10;
+    observed[3] = make_observation(CEDUO_OBSERVED_ENERGY);
+    observed[3].mean = 1e5;
+    observed[3].sd = 1e4;
+    observed[1].option = observed[3].option = 1;
 }
 
-static bool look(void)
+static bool simulate_observations(void)
 {
-    struct ceduo_observation seen[4];
+    struct ceduo_observation observed[4];
     struct ceduo_observer *observer;
-    struct ceduo_observation_fit to[4];
+    struct ceduo_observation_fit results[4];
     make_ground();
-    see(seen);
-    enum ceduo_status status = ceduo_observer_create(seen, 4, &observer);
+    make_observations(observed);
+    enum ceduo_status status = ceduo_observer_create(observed, 4, &observer);
     if (!is_done(status)) {
         assert_null(observer);
         return false;
     }
-    status = ceduo_observer_simulate(observer, &ground.of.scene, ROCKS, NULL, to);
+    status = ceduo_observer_simulate(observer, &ground.base.scene, ROCKS, NULL, results);
     for (size_t i = 0; i < 4 && status == CEDUO_OK; i++)
-        add(&to[i].log_likelihood, sizeof to[i].log_likelihood);
+        add(&results[i].log_likelihood, sizeof results[i].log_likelihood);
     for (size_t i = 1; i < 3 && status == CEDUO_OK; i++) {
         LOCAL_BYTES double *values;
         size_t n;
-        status = ceduo_observer_values(observer, &ground.of.scene, i, ROCKS, &values, &n);
+        status = ceduo_observer_values(observer, &ground.base.scene, i, ROCKS, &values, &n);
         add(values, status == CEDUO_OK ? n * sizeof *values : 0);
     }
     ceduo_observer_free(observer);
     return is_done(status);
 }
 
-static bool look_without_a_fit(void)
+static bool compare_without_fit(void)
 {
-    struct ceduo_observation seen[4];
-    struct ceduo_predicted to[4];
+    struct ceduo_observation observed[4];
+    struct ceduo_predicted results[4];
     make_ground();
-    see(seen);
-    const struct ceduo_calibration_scene scene = {.scene = &ground.of.scene, .observations_count = 4, .observations = seen};
-    enum ceduo_status status = ceduo_compare_with_observations(&scene, ROCKS, NULL, to);
+    make_observations(observed);
+    const struct ceduo_calibration_scene scene = {
+        .scene = &ground.base.scene, .observations_count = 4, .observations = observed};
+    enum ceduo_status status = ceduo_compare_with_observations(&scene, ROCKS, NULL, results);
     for (size_t i = 0; i < 4 && status == CEDUO_OK; i++)
-        add(&to[i].p_value, sizeof to[i].p_value);
+        add(&results[i].p_value, sizeof results[i].p_value);
     return is_done(status);
 }
 
-/* ---- a fit that goes on ---- */
+/* ---- fits ---- */
 
-static enum ceduo_calibration_stage counted_stage; /* stage of a fit, of which it is counted how often it is told */
+static enum ceduo_calibration_stage counted_stage; /* progress calls of this stage are counted */
 
-static void tell(void *context, const struct ceduo_calibration_state *state)
+static void count_stage(void *context, const struct ceduo_calibration_state *state)
 {
     (void)context;
-    note_told(state->stage == counted_stage);
+    count_progress_call(state->stage == counted_stage);
 }
 
-#define SEEN 200 /* times */
+#define SPEEDS 200
 
-/* Of one value, to a speed that was seen at x through the second option, so often in each scene; chains of one round. */
-static enum ceduo_status fit_of(const struct ceduo_input *input, double x, struct ceduo_calibration_def def)
+/* Fit one value to SPEEDS equal observations of a speed at x through the second option, in each scene. Chains end after one
+ * round. */
+static enum ceduo_status fit_speed(const struct ceduo_input *input, double x, struct ceduo_calibration_def def)
 {
-    struct ceduo_observation seen[SEEN];
+    struct ceduo_observation observed[SPEEDS];
     make_ground();
-    for (size_t i = 0; i < SEEN; i++) {
-        seen[i] = something(CEDUO_OBSERVED_SPEED);
-        seen[i].x = x;
-        seen[i].option = 1;
+    for (size_t i = 0; i < SPEEDS; i++) {
+        observed[i] = make_observation(CEDUO_OBSERVED_SPEED);
+        observed[i].x = x;
+        observed[i].option = 1;
     }
-    const struct ceduo_calibration_scene scene = {&ground.of.scene, input, SEEN, seen}, scenes[2] = {scene, scene};
+    const struct ceduo_calibration_scene scene = {&ground.base.scene, input, SPEEDS, observed}, scenes[2] = {scene, scene};
     struct ceduo_calibration a;
     def.scenes = scenes;
     def.parameters_count = def.seed = def.steps_max = 1;
@@ -178,24 +180,25 @@ static enum ceduo_status fit_of(const struct ceduo_input *input, double x, struc
     return status;
 }
 
-/* A fit of a speed to what was seen of one rock, its chains of one round. */
-static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void (*meanwhile)(void),
-                                          enum ceduo_calibration_stage stage, int at)
+/* Fit the release speed to speeds of one rock. Chains end after one round. */
+static enum ceduo_status fit_one_round(unsigned threads, uint64_t rocks, void (*callback)(void),
+                                       enum ceduo_calibration_stage stage, int at)
 {
     static const char *const place = "release.vx_m_s";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 9, .places_count = 1, .places = &place};
     counted_stage = stage;
-    begin_to_tell(meanwhile, at);
-    return fit_of(&input, 1,
-                  (struct ceduo_calibration_def){.scenes_count = 1, .rocks = rocks, .threads = threads, .progress = tell});
+    begin_progress(callback, at);
+    return fit_speed(
+        &input, 1,
+        (struct ceduo_calibration_def){.scenes_count = 1, .rocks = rocks, .threads = threads, .progress = count_stage});
 }
 
-/* A fit of one value to two scenes. Nearly all that it tries lies beyond where something was seen, and takes no time. */
-static bool fit(void)
+/* Fit one value to two scenes. Nearly all releases lie beyond the observed place, and take no time. */
+static bool fit_two_scenes(void)
 {
     static const char *const place = "release.x_m";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
-    return is_done(fit_of(&input, 20, (struct ceduo_calibration_def){.scenes_count = 2, .rocks = 1, .threads = 1}));
+    return is_done(fit_speed(&input, 20, (struct ceduo_calibration_def){.scenes_count = 2, .rocks = 1, .threads = 1}));
 }
 
 static bool fit_on_many_threads(void)
@@ -203,30 +206,30 @@ static bool fit_on_many_threads(void)
     static const char *const place = "release.x_m";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
     return is_done(
-        fit_of(&input, 20, (struct ceduo_calibration_def){.scenes_count = 1, .rocks = 1, .threads = CEDUO_THREADS_MAX}));
+        fit_speed(&input, 20, (struct ceduo_calibration_def){.scenes_count = 1, .rocks = 1, .threads = CEDUO_THREADS_MAX}));
 }
 
-/* What so many workers need takes room of its own. */
+/* The state of CEDUO_THREADS_MAX workers is an allocation of its own. */
 TEST(workers_of_a_fit)
 {
     for (unsigned long at = 1; at <= 4; at++)
-        assert_false(begin(fit_on_many_threads, at, false));
+        assert_false(run_task(fit_on_many_threads, at, false));
 }
 
-/* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end
- * before it looks up again. */
-TEST(one_is_told_at_a_time)
+/* A progress callback blocks no other thread, and does not run twice at a time. With 1000 rocks the other threads are still
+ * busy while it waits. */
+TEST(one_progress_call_at_a_time)
 {
-    assert_int_equal(fit_of_one_round(2, 1000, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
-    assert_int_equal(told.most_inside, 1);
-    assert_true(told.times > 1);
+    assert_int_equal(fit_one_round(2, 1000, wait_for_other_threads, CEDUO_SEARCH, 1), CEDUO_OK);
+    assert_int_equal(progress_calls.inside_max, 1);
+    assert_true(progress_calls.times > 1);
 }
 
-/* Where one thread has no memory the other ends, too: of 256 points few are looked at then. */
+/* If memory fails in one thread, the other one ends, too: few of 256 points are evaluated. */
 TEST(one_thread_ends_all)
 {
-    assert_int_equal(fit_of_one_round(2, 1, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
-    assert_true(told.times < 100);
+    assert_int_equal(fit_one_round(2, 1, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
+    assert_true(progress_calls.times < 100);
 }
 
 static long growth;
@@ -238,58 +241,58 @@ static void fail_to_grow(void)
 
 static bool fit_that_cannot_grow(void)
 {
-    return is_done(fit_of_one_round(1, 1, fail_to_grow, CEDUO_SEARCH, 256));
+    return is_done(fit_one_round(1, 1, fail_to_grow, CEDUO_SEARCH, 256));
 }
 
-/* What chains have tried, and what is learned of it and of all points before, has no room. */
+/* Memory fails for the points of the chains, and for the surrogate trained on them and all points before. */
 TEST(chains_of_a_fit)
 {
     for (growth = 1; growth <= 30; growth++) {
-        assert_false(begin(fit_that_cannot_grow, 0, false));
+        assert_false(run_task(fit_that_cannot_grow, 0, false));
         assert_int_equal(grow_at, 0);
     }
 }
 
-/* ---- many that were seen ---- */
+/* ---- many observations ---- */
 
-/* Each of a rock of its own, which takes room of its own. */
-static bool see_many(void)
+/* Observe 64 rocks; each needs a simulation of its own. */
+static bool observe_many(void)
 {
     enum { MANY = 64 };
     static struct ceduo_rock_def rocks[MANY];
-    struct ceduo_observation seen[MANY];
+    struct ceduo_observation observed[MANY];
     LOCAL(ceduo_observer, observer);
     for (size_t i = 0; i < MANY; i++) {
-        seen[i] = something(CEDUO_OBSERVED_SPEED);
-        seen[i].rock = &rocks[i];
+        observed[i] = make_observation(CEDUO_OBSERVED_SPEED);
+        observed[i].rock = &rocks[i];
     }
-    enum ceduo_status status = ceduo_observer_create(seen, MANY, &observer);
+    enum ceduo_status status = ceduo_observer_create(observed, MANY, &observer);
     return is_done(status);
 }
 
 /* ---- chains ---- */
 
-static enum ceduo_status normal(void *context, size_t chain, const double *x, double *log_density)
+static enum ceduo_status normal_density(void *context, size_t chain, const double *x, double *log_density)
 {
     (void)context, (void)chain;
     *log_density = -x[0] * x[0] / 2;
     return CEDUO_OK;
 }
 
-static double guess_at(void *context, const double *x)
+static double evaluate_surrogate(void *context, const double *x)
 {
     return ceduo_surrogate_evaluate(context, x);
 }
 
-static enum ceduo_status learn(void *context, const double *x, const double *log_densities, size_t n)
+static enum ceduo_status train_surrogate(void *context, const double *x, const double *log_densities, size_t n)
 {
     return ceduo_surrogate_train(context, x, log_densities, n, NULL);
 }
 
-static bool draw(void)
+static bool run_chains(void)
 {
     static const double starts[2] = {-1, 1};
-    LOCAL_BY(ceduo_surrogate_free) struct surrogate guess = ceduo_surrogate_begin(1);
+    LOCAL_BY(ceduo_surrogate_free) struct surrogate surrogate = ceduo_surrogate_begin(1);
     const struct chains_def def = {.dimensions = 1,
                                    .chains = 2,
                                    .starts = starts,
@@ -299,10 +302,10 @@ static bool draw(void)
                                    .steps_max = 201,
                                    .rhat_max = 1.01,
                                    .effective_min = 1e9,
-                                   .density = normal,
-                                   .surrogate = guess_at,
-                                   .train = learn,
-                                   .context = &guess};
+                                   .density = normal_density,
+                                   .surrogate = evaluate_surrogate,
+                                   .train = train_surrogate,
+                                   .context = &surrogate};
     LOCAL_BY(ceduo_chains_release) struct chains chains;
     enum ceduo_status status = ceduo_chains_run(&def, &chains);
     if (status == CEDUO_OK)
@@ -312,7 +315,7 @@ static bool draw(void)
 
 /* ---- surveys ---- */
 
-static bool survey(void)
+static bool compute_survey(void)
 {
     struct ceduo_survey_stem stems[8];
     const double area = 100;
@@ -335,27 +338,27 @@ static bool survey(void)
     return is_done(status);
 }
 
-TEST(blocks_come_down)
+TEST(sizes)
 {
-    without_memory(ask_of_blocks);
+    without_memory(simulate_sizes);
 }
 
-TEST(what_was_seen)
+TEST(observations)
 {
-    without_memory(look);
-    without_memory(look_without_a_fit);
-    without_memory(see_many);
+    without_memory(simulate_observations);
+    without_memory(compare_without_fit);
+    without_memory(observe_many);
 }
 
 TEST(fits)
 {
-    without_memory(fit);
-    without_memory(draw);
+    without_memory(fit_two_scenes);
+    without_memory(run_chains);
 }
 
 TEST(surveys)
 {
-    without_memory(survey);
+    without_memory(compute_survey);
 }
 
 static int set_up(void **state)

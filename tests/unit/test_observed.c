@@ -42,8 +42,8 @@ TEST(band_of_half_of_ten)
 /* If the number released is known, rocks that went on lie farther: 6 of 10 observed, 4 of 8 simulated. */
 TEST(rocks_that_did_not_stop_lie_farther)
 {
-    double seen[4] = {2, 3, 4, 5}, simulated[4] = {1, 2, 3, 6};
-    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .released_count = 10, .values = seen};
+    double observed[4] = {2, 3, 4, 5}, simulated[4] = {1, 2, 3, 6};
+    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .released_count = 10, .values = observed};
     struct ceduo_observed_stops s = {0};
     ceduo_observed_stops_find(&o, simulated, 4, 8, &s);
     EXPECT_NEAR(s.x[FIRST], 1, 1e-12);

@@ -44,7 +44,7 @@ HIT = re.compile(r"; hits a (shoot|tree) of ([\d.]+) cm: ([\d.]+) of ([\d.]+) kJ
 
 
 def test_step_stems():
-    """Stepping along a trajectory reports each hit stem, its share of the energy, and where it stops the rock."""
+    """Stepping along a trajectory reports each hit stem, its share of the energy, and the position of a stop."""
     whole, *pieces = stepped(WOOD, 60)
     total = int(re.search(r"(\d+) stems hit", whole.note).group(1))
     count = int(re.match(r"rock 1, segment 1 of (\d+):", pieces[0].note).group(1))

@@ -58,7 +58,7 @@ def test_nothing_seen():
     with Place() as place:
         for size in ("80 24", "200 50"):
             view, key = place.play(f"resize {size}\nwait idle\nkey 8\ndump\nkey c\ndump")
-            says(view, "This scene has no observations.", "a adds observations", "c fits the ground to them.")
+            expect_in_view(view, "This scene has no observations.", "a adds observations", "c fits the ground to them.")
             view.lacks("not computed yet", "fallin")
             key.whole().has("a adds one").lacks("Values to fit")
 
@@ -135,7 +135,7 @@ def test_typed():
         expect_in(words, text, "the file")
 
 
-def says(screen, *parts):
+def expect_in_view(screen, *parts):
     """Expect each part in the view's own text, in any wrapping."""
     flat = " ".join(screen.whole().body.split())
     for part in parts:
@@ -162,7 +162,7 @@ def test_rows():
                 expect(abs(float(found) - wanted) < 0.09, f"{found}, {wanted:.2f} wanted", screen)
         expect(re.search(r"^all pass +10 +10–10 inside$", screen.body, re.M), screen)
         expect(re.search(r"^(few pass and nobody knows why \(check\))?\s+6 +10–10 OUTSIDE$", screen.body, re.M), screen)
-        says(screen, "few pass and nobody knows why (check)", "does not reproduce: too slow (p <.001); few pass and nobody",
+        expect_in_view(screen, "few pass and nobody knows why (check)", "does not reproduce: too slow (p <.001); few pass and nobody",
                    "Only a fit shows which values they determine.", "Simulated: 2000 rocks.")
 
 
@@ -173,12 +173,12 @@ def test_unknown():
                     "  - {name: at the end, speed: {x_m: 59, n: 5, mean: 3, sd: 1}}\n"
                     "  - {name: at the gate, speed: {x_m: 20, n: 5, mean: 22, sd: 1}}\nsimulation: {rocks: 100}\n")
         screen = place.play("resize 120 40\nkey 8\nwait idle\ndump", "flight.yaml")[0]
-    says(screen, "does not reproduce: at the end (no simulated rock does this).")
+    expect_in_view(screen, "does not reproduce: at the end (no simulated rock does this).")
     expect(re.search(r"^at the end +3.00 m/s +- OUTSIDE$", screen.body, re.M), screen)
 
 
 def test_spread():
-    """What 'does not reproduce' names is not called inside in the row above it: of block 1 the mean alone fits"""
+    """An observation named after 'does not reproduce' is not called inside in the row above; only the mean of block 1 fits"""
     with Place() as place:
         screen = place.play("resize 150 40\nkey 8\nwait idle\ndump", "tschamut-arm")[0].whole()
     words = " ".join(screen.body.split())
@@ -206,9 +206,9 @@ def test_fit_taken():
     for screen in (fitted, large):
         best, lo, hi = map(float, re.search(r"speed along, m/s ([\d.]+) \(([\d.]+)–([\d.]+)\)", screen.body).groups())
         expect(abs(speed_at_gate(best) - 22) < 0.15 and abs(lo - 10.02 + slope) < 0.1 and abs(hi - 10.02 - slope) < 0.1, screen)
-        says(screen, "Fitted. Enter applies these values", "The fit does not hold for what was to check it: too slow.")
-    says(large, "The model reproduces all fitted observations.", "A neighbouring profile may need another ground.")
-    says(large, "It does not write the draws, all plausible values.", "-n 100 -o FITTED.yaml SCENE.yaml")
+        expect_in_view(screen, "Fitted. Enter applies these values", "The fit does not reproduce the observations held back to check it: too slow.")
+    expect_in_view(large, "The model reproduces all fitted observations.", "A neighbouring profile may need another ground.")
+    expect_in_view(large, "It does not write the draws, all plausible values.", "-n 100 -o FITTED.yaml SCENE.yaml")
     expect_in("values and ranges written to the scene, without the draws; u undoes", taken.note)
     expect("*" in taken.title and "*" not in saved.title, "a star while it is unsaved", taken, saved)
     value = re.search(r"vx_m_s: *([\d.]+)", text)
@@ -218,7 +218,7 @@ def test_fit_taken():
     expect("Fitted." not in undone.body, undone)
 
 
-def picture_of(screen):
+def read_picture(screen):
     """Return the lines of the picture of stops, down to its axis."""
     lines = screen.body.split("\n")
     return lines[:next(i for i, line in enumerate(lines) if "└" in line) + 2]
@@ -236,7 +236,7 @@ def test_stops_of_each_option():
         for names in (("one", "two"), ("two", "one")):
             seen = "".join(row[:row.index("option:")] + f"option: {name}}}\n" for row, name in zip(rows, names))
             place.write("s.yaml", head + seen + "simulation: {rocks: 60}\n")
-            found.append([picture_of(screen) for screen in place.play(play_both, "s.yaml")])
+            found.append([read_picture(screen) for screen in place.play(play_both, "s.yaml")])
     expect_equal(found[1], found[0][::-1], "the other way round")
     expect(found[0][0] != found[0][1], "one picture for both", found[0][0])
 
@@ -324,7 +324,7 @@ def test_too_many_values():
         t.sees("Values to fit")
         t.keys("Enter", "Enter", "Enter", "Enter")
         told = " ".join(line[:50].strip() for line in t.sees("not determine all 4").split("\n"))
-        named = re.search(r"do not determine all 4 values: fix (.*?)\. c fits without it", told)
+        named = re.search(r"do not determine all 4 values, so the ranges are rough: fix (.*?), or observe more\. c fits without it", told)
         expect(named and re.search("bounce Rn|slide Rt", named.group(1)), told)
         t.keys("c")
         asked = t.sees("Values to fit")
@@ -343,10 +343,10 @@ def test_quarry():
             "key 8 Tab\nwait idle\ndump\nresize 200 50\ndump\nkey c Ctrl-U Backspace Enter Ctrl-U Backspace Enter Enter Enter\n"
             "wait idle\ndump\nkey Enter\nwait idle\ndump", "quarry")
     for screen in (small, large):
-        says(screen, "farther:", "does not reproduce: stops")
+        expect_in_view(screen, "farther:", "does not reproduce: stops")
         expect(re.search(rf"^stops +{mean:.0f} m .* OUTSIDE$", screen.body, re.M), screen)
-    says(fitted, "roughness, m", "friction", "The model reproduces all fitted observations.")
-    says(taken, "The scene reproduces all observations.")
+    expect_in_view(fitted, "roughness, m", "friction", "The model reproduces all fitted observations.")
+    expect_in_view(taken, "The scene reproduces all observations.")
     expect(re.search(rf"^stops +{mean:.0f} m .* inside$", taken.body, re.M), taken)
 
 
