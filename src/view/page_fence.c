@@ -71,7 +71,7 @@ static void append_enough(struct text *text, const struct ceduo_subject *s, cons
 }
 
 /* Append "The fence of 3 m and 500 kJ is defeated by 12 (8–19) of 1000, without forest by 210; by 31 in year 1." */
-static void append_defeated(struct text *text, const struct ceduo_subject *s, const struct ceduo_fence_years *years)
+static void append_defeated(struct text *text, const struct ceduo_subject *s, const struct ceduo_fence_years *years, bool brief)
 {
     const struct ceduo_fence *fence = &s->place->fence;
     const struct ceduo_fence_arrivals *f = ceduo_fence_find(s->wooded);
@@ -85,7 +85,7 @@ static void append_defeated(struct text *text, const struct ceduo_subject *s, co
         ceduo_text_format(text, _("; %s without forest"), MEASURE_VALUE(bare));
     ceduo_text_append_char(text, '.');
     double rate = years ? years->per_year : f ? f->per_year : NAN, chance = years ? years->in_life : f ? f->in_life : NAN;
-    if (!isnan(rate))
+    if (!isnan(rate) && !brief)
         ceduo_text_append_joined(text, " ", _("That is %s a year; in %s years it happens with a chance of %s %%."),
                                  SIG(rate, 2), LOCALIZED(ceduo_fence_life(fence)), SIG(100 * chance, 2));
     LOCAL_TEXT(causes);
@@ -95,7 +95,7 @@ static void append_defeated(struct text *text, const struct ceduo_subject *s, co
         ceduo_text_append_joined(text, " ", _("It depends on %s if it is enough."), ceduo_text_string(&causes));
 }
 
-void ceduo_page_fence_answer(struct ceduo_page *page, const struct ceduo_report *report)
+void ceduo_page_fence_answer(struct ceduo_page *page, const struct ceduo_report *report, bool brief)
 {
     const struct ceduo_result *r = report->result;
     size_t option = ceduo_result_best(r, report->verdict);
@@ -110,7 +110,7 @@ void ceduo_page_fence_answer(struct ceduo_page *page, const struct ceduo_report 
             ceduo_text_append(text, ": ");
         }
         append_enough(text, &s, years);
-        append_defeated(text, &s, years);
+        append_defeated(text, &s, years, brief);
     }
 }
 

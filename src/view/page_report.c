@@ -250,7 +250,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     add_uncertainty(page, report);
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
-    ceduo_page_fence_answer(page, report);
+    ceduo_page_fence_answer(page, report, false);
     add_slope(page, report);
     add_option_percentiles(page, report);
     if (several && controls) {

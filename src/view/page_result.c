@@ -557,7 +557,7 @@ static void add_full_page(struct ceduo_page *page, const struct ceduo_report *re
     ceduo_page_answer(page, report);
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
-    ceduo_page_fence_answer(page, report);
+    ceduo_page_fence_answer(page, report, false);
     if (scene->options_count > 1) /* shared by all options */
         ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
     for (size_t k = 0; scene->options_count > 1 && k < scene->controls_count; k++) {

@@ -129,11 +129,11 @@ def test_pages():
     expect_in("FENCE Enough without forest: ", short)
     expect_in("; with 'coppice with standards': today ", short)
     expect_in(" defeat the fence of 4 m and 500 kJ", short)
-    expect_in("; in 50 years it happens with a chance of ", short.replace(". That", "; That"))
+    expect("in 50 years" not in short, short)
     full = good("--batch", "--details", *FEW, SCENE).out
-    for text in ("pass above the fence", "held, with over a third of its energy", "Smallest class of a fence", "worst year: one system",
+    for text in ("in 50 years it happens", "pass above the fence", "held, with over a third of its energy", "Smallest class of a fence", "worst year: one system",
                  "Not judged: "):
-        expect_in(text, full)
+        expect_in(text, " ".join(full.split()))
     page = good("--report=-", *FEW, SCENE).out
     expect_in("Which class of fence is enough at fence above the road (96 m)", page)
     italian = good("--batch", "--language=it", *FEW, SCENE).out
