@@ -88,9 +88,9 @@ link = $(call says,LD,$@) $(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) 
 
 # The rooms of the library, with their folders; the other rooms use them.
 rooms = $(wildcard $(patsubst %,src/%/*.c,$(1)) $(patsubst %,src/%/*/*.c,$(1)))
-CORE := $(call rooms,base scene core study io)
+CORE := $(call rooms,base scene core study io view api)
 HEADERS := $(wildcard include/ceduo/*.h)
-REST := $(filter-out src/cli/main.c,$(call rooms,model view tui cli))
+REST := $(filter-out src/cli/main.c,$(call rooms,model tui cli))
 object = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY := $(BUILD)/libceduo.a
 SONAME := libceduo.so.0

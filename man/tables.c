@@ -252,6 +252,7 @@ static bool has_option(const struct form *form, const struct option_row *row)
                           [NEEDS_PLOT] = plot,
                           [NEEDS_PICTURE] = plot || form->mode == MODE_TERMINAL,
                           [NEEDS_CSV] = format_goes,
+                          [NEEDS_EACH] = true,
                           [NEEDS_FILE] = format_goes};
     return needs[row->needs] && !(form->more && strcmp(form->more, row->name) == 0);
 }

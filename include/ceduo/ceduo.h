@@ -27,6 +27,7 @@ extern "C" {
 #include "calibrate.h"
 #include "fence.h"
 #include "find.h"
+#include "handle.h"
 #include "hazard.h"
 #include "key.h"
 #include "naslund.h"

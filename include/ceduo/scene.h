@@ -33,6 +33,7 @@ struct ceduo_release {
     struct ceduo_number vx, vz; /* m/s, z upward */
     struct ceduo_number spin;   /* rad/s, positive if it rolls forward in +x */
     bool x_assumed;             /* x is not given: the first vertex */
+    double share;               /* share of all rocks, > 0, if there are several releases; they need not add up to 1 */
 };
 
 /* A net fence at a control. It changes no trajectory: the passing rocks are compared with it. A rock defeats the fence if its
@@ -210,7 +211,9 @@ struct ceduo_scene {
     struct ceduo_rock_def rock;
     size_t blocks_count;             /* classes that do not overlap; 0: every rock is `rock` */
     struct ceduo_size_class *blocks; /* volumes of `rock`, scaled; results for one rock, such as the ADC, use `rock` */
-    struct ceduo_release release;
+    struct ceduo_release release;    /* with `releases`, their mean: results for one rock, such as the index, use it */
+    size_t releases_count;           /* 0: every rock starts at `release` */
+    struct ceduo_release *releases;  /* each rock draws one of them */
     struct ceduo_slope slope;
     size_t controls_count;
     struct ceduo_control *controls; /* in the user's order */
@@ -240,6 +243,15 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *bad
 
 /* True if rocks differ in size, mass or shape. */
 bool ceduo_scene_rock_varies(const struct ceduo_scene *scene);
+
+/* Set `release` to the mean of several releases, weighted by their shares. Call it after a change of them. */
+void ceduo_scene_average_releases(struct ceduo_scene *scene);
+
+/* Return the releases, and their number n: `releases`, or `release` alone. */
+const struct ceduo_release *ceduo_scene_releases(const struct ceduo_scene *scene, size_t *n);
+
+/* Return the largest x at which a rock can start (m, relative to the slope's first vertex). */
+double ceduo_scene_release_last(const struct ceduo_scene *scene);
 
 /* Return the index of the control farthest along x, or 0 if there is none. */
 size_t ceduo_scene_last_control(const struct ceduo_scene *scene);

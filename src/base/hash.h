@@ -27,15 +27,26 @@ static inline void hash_numbers(uint64_t *hash, const double *numbers, size_t n)
     }
 }
 
-/* Return the hash of n bytes, the same on every machine. It detects accidental changes, not malicious ones. */
-static inline uint64_t hash_string(const char *bytes, size_t n)
+/* Begin the hash of n bytes, and mix in a chunk of them. The length of each chunk but the last is a multiple of 8. */
+static inline uint64_t hash_begin(size_t n)
 {
-    uint64_t hash = HASH_START ^ (uint64_t)n;
+    return HASH_START ^ (uint64_t)n;
+}
+
+static inline void hash_chunk(uint64_t *hash, const char *bytes, size_t n)
+{
     for (size_t i = 0; i < n; i += 8) {
         uint64_t word = 0;
         memcpy(&word, bytes + i, n - i < 8 ? n - i : 8);
-        hash_word(&hash, le64toh(word));
+        hash_word(hash, le64toh(word));
     }
+}
+
+/* Return the hash of n bytes, the same on every machine. It detects accidental changes, not malicious ones. */
+static inline uint64_t hash_string(const char *bytes, size_t n)
+{
+    uint64_t hash = hash_begin(n);
+    hash_chunk(&hash, bytes, n);
     return hash;
 }
 

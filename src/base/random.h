@@ -7,7 +7,7 @@
 /* Purpose of a random number. A number depends only on seed, rock, event and kind. */
 enum random_kind {
     RANDOM_FACET,
-    RANDOM_RELEASE,  /* events: x, height, vx, vz, spin */
+    RANDOM_RELEASE,  /* events: x, height, vx, vz, spin, choice of the release */
     RANDOM_ROCK,     /* events: diameter, height, volume, mass, density, axes */
     RANDOM_GROUND,   /* events: Rn, Rt */
     RANDOM_STEM,     /* gap, offset, mark and rotation of a stool or tree; events: stream, side, number */

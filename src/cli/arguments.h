@@ -67,6 +67,7 @@ struct arguments {
     size_t scenes_count;
     const char *called; /* name of the current scene in messages; NULL: there is only one scene */
     const char *label;  /* of its row of --each in tables; NULL: no row */
+    size_t number;      /* number of the current scene, from 0 */
     uint64_t seed;
     char seed_set[64];          /* the seed as PATH=VALUE */
     bool years;                 /* compute every option year by year */
@@ -78,15 +79,18 @@ struct arguments {
     uint64_t points;                 /* of --sensitivity */
     const char *survey;              /* a CSV file of plots; NULL: none */
     const char *each;                /* a CSV file whose rows change the scenes; NULL: none */
+    const char *key;                 /* column of `each` that names a row; NULL: none */
     const char *columns;             /* heads of CSV, separated by commas; NULL: all */
     int schema;                      /* a word of the option's row */
     bool resume;                     /* keep the lines of the output */
     struct ceduo_profiles *profiles; /* of several scenes, for the table before the pages */
     struct text *title;              /* of the first scene of a report */
+    struct ceduo_region *region;     /* lines of a report with --each; NULL: none */
+    uint64_t chapters;               /* number of chapters of this report */
 };
 
 /* Requirement of an option. */
-enum option_requirement { NEEDS_NOTHING, NEEDS_GOAL, NEEDS_FIND, NEEDS_PLOT, NEEDS_PICTURE, NEEDS_CSV, NEEDS_FILE };
+enum option_requirement { NEEDS_NOTHING, NEEDS_GOAL, NEEDS_FIND, NEEDS_PLOT, NEEDS_PICTURE, NEEDS_CSV, NEEDS_EACH, NEEDS_FILE };
 
 /* An option of the command line. Parser, help, checks, completion and the synopsis of ceduo(1) read this row. */
 struct option_row {

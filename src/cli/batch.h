@@ -19,7 +19,11 @@ enum exit_status ceduo_batch_survey(const struct arguments *arguments);
 /* ---- modes of ceduo_batch_run(): append the answer of one scene ---- */
 
 typedef enum exit_status ceduo_batch_answer(const struct arguments *arguments, struct scene_file *file, struct text *out);
-ceduo_batch_answer ceduo_print_report, ceduo_print_plots, ceduo_print_find, ceduo_print_uncertainty, ceduo_print_chapter;
+ceduo_batch_answer ceduo_print_report, ceduo_print_plots, ceduo_print_find, ceduo_print_uncertainty, ceduo_print_chapter,
+    ceduo_print_line;
+
+/* Append the command line that reproduces a page. */
+void ceduo_print_command(struct text *text, const struct arguments *arguments);
 
 /* ---- reading ---- */
 
@@ -68,9 +72,6 @@ struct query {
 
 /* Set the question from the command line: rocks by -n, -e or the scene; threads, years. */
 void ceduo_query_begin(struct query *query, const struct arguments *arguments, const struct scene_file *file);
-
-/* Add one rotation of each option, with few rocks, if --years is not given. */
-void ceduo_query_add_years(struct ceduo_request *request);
 
 /* Simulate the runs of the question. */
 enum ceduo_status ceduo_query_run(struct query *query);

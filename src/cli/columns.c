@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines of CSV: the copied cells of --each, then the cells of the result; with --columns, only chosen ones. */
-#include "each.h"
-
+/* Lines of CSV: the copied cells of --each, the state of the row, then the cells of the result. --columns chooses among them. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
+#include "each.h"
 #include "messages.h"
 
 struct named_column {
@@ -34,99 +33,204 @@ static size_t split_line(const char *line, size_t length, struct csv_span *cells
     return n;
 }
 
-/* Append the copied cells of the current row, or their heads, each with a comma. */
-static void append_copied(const struct each *e, bool heads, struct text *line)
+/* ---- choice ---- */
+
+/* Add a column to the chosen ones. `name`: its head. */
+static void choose(struct columns *c, size_t column, const char *name)
 {
-    for (size_t i = 0; i < e->heads_count; i++)
-        if (ceduo_each_is_copied(&e->heads[i])) {
-            ceduo_text_append_csv(line, heads ? e->heads[i].printed : e->cells[i]);
-            ceduo_text_append_char(line, ',');
-        }
+    c->chosen[c->chosen_count++] = (struct chosen_column){column, name};
 }
 
-/* Append the chosen columns of a line. */
-static void append_line(const struct columns *c, const struct text *line, struct text *out)
+/* Choose the copied cells without the geometry of a feature, with --key only the key; with --each the state of the row, except `run`; and all of the result. */
+static void choose_usual(struct columns *c)
 {
-    if (!c->chosen) {
-        ceduo_text_append_n(out, line->bytes, line->length);
-    } else {
-        size_t n = split_line(line->bytes, line->length, c->cells, c->count);
-        for (size_t k = 0; k < c->chosen_count; k++) {
-            ceduo_text_append(out, k > 0 ? "," : "");
-            if (c->chosen[k] < n)
-                ceduo_text_append_n(out, c->cells[c->chosen[k]].p, c->cells[c->chosen[k]].n);
-        }
+    const struct each *e = c->each;
+    size_t n = 0;
+    for (size_t i = 0; i < e->heads_count; i++) {
+        bool geometry = e->given->format == CEDUO_GEOJSON && (e->wkt == NO_COLUMN ? i == e->x || i == e->y : i == e->wkt);
+        if (ceduo_each_is_copied(e, i) && (e->key == NO_COLUMN ? !geometry : i == e->key))
+            choose(c, n, c->names[n]);
+        n += ceduo_each_is_copied(e, i);
     }
-    ceduo_text_append_char(out, '\n');
+    for (size_t i = c->copied_count; e->rows && i < c->result_begin; i++)
+        if (strcmp(c->names[i], "run") != 0)
+            choose(c, i, c->names[i]);
+    for (size_t i = c->result_begin; i < c->count; i++)
+        choose(c, i, c->names[i]);
 }
 
-/* Find the columns of --columns among n sorted names. */
-static enum exit_status choose_columns(struct columns *c, const struct named_column *names, size_t n)
+static enum exit_status report_unknown(const struct columns *c, const char *name)
 {
-    const char *list = c->each->given->columns;
+    const char *near = ceduo_text_nearest(name, c->names, c->count);
+    return near ? ceduo_usage_error("columns", _("no column '%s'; did you mean '%s'?"), name, near)
+                : ceduo_usage_error("columns", _("no column '%s'; --list-columns names all"), name);
+}
+
+/* Choose the columns of --columns, PATH or NAME=PATH, among `count` sorted names. */
+static enum exit_status choose_listed(struct columns *c, const struct named_column *sorted)
+{
+    struct arena *arena = &c->each->arena;
     size_t length;
-    c->chosen = ceduo_arena_alloc(&c->each->arena, (strlen(list) + 1) * sizeof *c->chosen);
-    for (const char *word = list; *word; word += length + (word[length] == ',')) {
+    for (const char *word = c->each->given->columns; *word; word += length + (word[length] == ',')) {
         length = strcspn(word, ",");
-        const struct named_column wanted = {ceduo_arena_copy(&c->each->arena, word, length), 0};
-        const struct named_column *found = bsearch(&wanted, names, n, sizeof *names, compare_names);
-        if (found) {
-            c->chosen[c->chosen_count++] = found->column;
-            continue;
+        struct named_column wanted = {ceduo_arena_copy(arena, word, length), 0};
+        const char *name = wanted.name, *equals = strchr(name, '=');
+        const struct named_column *found = bsearch(&wanted, sorted, c->count, sizeof *sorted, compare_names);
+        if (!found && equals) {
+            name = ceduo_arena_copy(arena, name, (size_t)(equals - name));
+            wanted.name = equals + 1;
+            found = bsearch(&wanted, sorted, c->count, sizeof *sorted, compare_names);
         }
-        const char **all = ceduo_arena_alloc(&c->each->arena, (n + 1) * sizeof *all);
-        for (size_t i = 0; i < n; i++)
-            all[i] = names[i].name;
-        const char *near = ceduo_text_nearest(wanted.name, all, n);
-        return near ? ceduo_usage_error("columns", _("no column '%s'; did you mean '%s'?"), wanted.name, near)
-                    : ceduo_usage_error("columns", _("no column '%s'; --list-columns names all"), wanted.name);
+        if (!found)
+            return report_unknown(c, wanted.name);
+        if (!name[0])
+            return ceduo_usage_error("columns", _("'=%s' has no name; write NAME=%s"), wanted.name, wanted.name);
+        choose(c, found->column, name);
     }
     return EXIT_DONE;
 }
 
-enum exit_status ceduo_columns_open(struct columns *c, struct each *e, const struct text *header)
+/* Report two chosen columns with one head. */
+static enum exit_status check_heads(const struct columns *c)
+{
+    struct named_column *sorted = ceduo_arena_alloc(&c->each->arena, (c->chosen_count + 1) * sizeof *sorted);
+    for (size_t i = 0; i < c->chosen_count; i++)
+        sorted[i] = (struct named_column){c->chosen[i].name, i};
+    qsort(sorted, c->chosen_count, sizeof *sorted, compare_names);
+    for (size_t i = 1; i < c->chosen_count; i++)
+        if (strcmp(sorted[i - 1].name, sorted[i].name) == 0)
+            return ceduo_usage_error("columns", _("two columns are called '%s'; rename one: NAME=%s"), sorted[i].name,
+                                     c->names[c->chosen[sorted[i].column].column]);
+    return EXIT_DONE;
+}
+
+/* ---- all columns ---- */
+
+/* Append the columns of a table from number `from` on. Return the number after the last. */
+static size_t add_columns(struct columns *c, const struct ceduo_figure *figures, size_t from)
+{
+    LOCAL_TEXT(list);
+    ceduo_figures_columns(&list, figures, false);
+    for (const char *p = ceduo_text_string(&list); *p; p += strcspn(p, "\n") + 1) {
+        size_t n = strcspn(p, "\t");
+        c->names = ceduo_arena_grow(&c->each->arena, c->names, from, 1, &c->capacity, sizeof *c->names);
+        c->texts = ceduo_arena_grow(&c->each->arena, c->texts, from, 1, &c->texts_capacity, sizeof *c->texts);
+        c->names[from] = ceduo_arena_copy(&c->each->arena, p, n);
+        c->texts[from++] = strncmp(p + n + 1, "string", 6) == 0;
+    }
+    return from;
+}
+
+/* Find the cells of the result that a failed row has. */
+static void make_failed(struct columns *c)
+{
+    const struct ceduo_csv failed = {.columns = ceduo_failed_columns};
+    LOCAL_TEXT(head);
+    LOCAL_TEXT(line);
+    struct csv_span names[8], cells[8];
+    ceduo_csv_head(&head, &failed);
+    ceduo_csv_rows(&line, &failed, &(struct ceduo_row_state){.reason = ""});
+    size_t n = split_line(head.bytes, head.length - 1, names, 8);
+    split_line(line.bytes, line.length - 1, cells, 8);
+    for (size_t i = c->result_begin; i < c->count; i++) {
+        for (size_t k = 0; k < n; k++)
+            if (strlen(c->names[i]) == names[k].n && memcmp(c->names[i], names[k].p, names[k].n) == 0)
+                ceduo_text_append_n(&c->failed, cells[k].p, cells[k].n);
+        ceduo_text_append(&c->failed, i + 1 < c->count ? "," : "\n");
+    }
+}
+
+enum exit_status ceduo_columns_open(struct columns *c, struct each *e, const struct ceduo_figure *figures)
 {
     *c = (struct columns){.each = e};
-    size_t max = 1, length = header->length > 0 ? header->length - 1 : 0; /* without the line end */
-    for (size_t i = 0; i < length; i++)
-        max += header->bytes[i] == ',';
-    struct csv_span *own = ceduo_arena_alloc(&e->arena, max * sizeof *own);
-    size_t own_count = length > 0 ? split_line(header->bytes, length, own, max) : 0, n = 0;
-    struct named_column *names = ceduo_arena_alloc(&e->arena, (own_count + e->heads_count + 1) * sizeof *names);
-    for (size_t i = 0; i < own_count; i++)
-        names[i] = (struct named_column){ceduo_arena_copy(&e->arena, own[i].p, own[i].n), i};
-    qsort(names, own_count, sizeof *names, compare_names);
+    if (!figures)
+        return EXIT_DONE;
+    struct arena *arena = &e->arena;
+    size_t own = add_columns(c, ceduo_row_figures, 0);
+    size_t row_columns = own, n = 0;
+    own = add_columns(c, figures, own);
+    const char **names = ceduo_arena_alloc(arena, (own + e->heads_count + 1) * sizeof *names);
+    bool *texts = ceduo_arena_alloc(arena, (own + e->heads_count + 1) * sizeof *texts);
+    c->copied = ceduo_arena_alloc(arena, (e->heads_count + 1) * sizeof *c->copied);
+    struct named_column *sorted = ceduo_arena_alloc(arena, (own + e->heads_count + 1) * sizeof *sorted);
+    for (size_t i = 0; i < own; i++)
+        sorted[i] = (struct named_column){c->names[i], i};
+    qsort(sorted, own, sizeof *sorted, compare_names);
     for (size_t i = 0; i < e->heads_count; i++) {
-        struct each_head *head = &e->heads[i];
-        if (!ceduo_each_is_copied(head))
+        const char *name = e->heads[i].name;
+        if (!ceduo_each_is_copied(e, i))
             continue;
-        if (bsearch(&(struct named_column){head->name, 0}, names, own_count, sizeof *names, compare_names))
-            head->printed = ceduo_arena_format(&e->arena, "row.%s", head->name);
-        names[own_count + n] = (struct named_column){head->printed, n};
-        n++;
+        bool taken = bsearch(&(struct named_column){name, 0}, sorted, own, sizeof *sorted, compare_names);
+        c->copied[n] = i;
+        names[n++] = taken ? ceduo_arena_format(arena, "row.%s", name) : name;
     }
-    for (size_t i = 0; i < own_count; i++)
-        names[i].column += n;
-    c->count = own_count + n;
-    qsort(names, c->count, sizeof *names, compare_names);
-    c->cells = ceduo_arena_alloc(&e->arena, (c->count + 1) * sizeof *c->cells);
-    return e->given->columns ? choose_columns(c, names, c->count) : EXIT_DONE;
+    memcpy(names + n, c->names, own * sizeof *names);
+    memcpy(texts + n, c->texts, own * sizeof *texts);
+    c->names = names;
+    c->texts = texts;
+    c->copied_count = n;
+    c->result_begin = n + row_columns;
+    c->count = n + own;
+    for (size_t i = 0; i < c->count; i++)
+        sorted[i] = (struct named_column){names[i], i};
+    qsort(sorted, c->count, sizeof *sorted, compare_names);
+    c->cells = ceduo_arena_alloc(arena, (c->count + 1) * sizeof *c->cells);
+    c->chosen =
+        ceduo_arena_alloc(arena, (c->count + strlen(e->given->columns ? e->given->columns : "") + 1) * sizeof *c->chosen);
+    make_failed(c);
+    if (!e->given->columns)
+        choose_usual(c);
+    enum exit_status status = e->given->columns ? choose_listed(c, sorted) : EXIT_DONE;
+    for (size_t i = 0; i < c->chosen_count; i++)
+        c->run_wanted |= strcmp(c->names[c->chosen[i].column], "run") == 0;
+    return status == EXIT_DONE ? check_heads(c) : status;
 }
 
-void ceduo_columns_head(const struct columns *c, const struct text *header, struct text *out)
+void ceduo_columns_close(struct columns *c)
 {
-    LOCAL_TEXT(line);
-    append_copied(c->each, true, &line);
-    ceduo_text_append_n(&line, header->bytes, header->length - 1);
-    append_line(c, &line, out);
+    ceduo_text_free(&c->failed);
 }
 
-void ceduo_columns_lines(const struct columns *c, const struct text *lines, struct text *out)
+/* ---- lines ---- */
+
+void ceduo_columns_head(const struct columns *c, struct text *out)
 {
-    for (const char *p = ceduo_text_string(lines), *end; (end = strchr(p, '\n')); p = end + 1) {
+    for (size_t k = 0; k < c->chosen_count; k++) {
+        ceduo_text_append(out, k > 0 ? "," : "");
+        ceduo_text_append_csv(out, c->chosen[k].name);
+    }
+    ceduo_text_append_char(out, '\n');
+}
+
+void ceduo_columns_visit(struct columns *c, const struct text *lines, const struct ceduo_row_state *state,
+                         void (*visit)(const struct columns *c, void *context), void *context)
+{
+    LOCAL_TEXT(front);
+    const struct each *e = c->each;
+    for (size_t i = 0; i < e->heads_count; i++)
+        if (ceduo_each_is_copied(e, i)) {
+            ceduo_text_append_csv(&front, e->cells[i]);
+            ceduo_text_append_char(&front, ',');
+        }
+    ceduo_csv_rows(&front, &(struct ceduo_csv){.columns = ceduo_row_figures}, state);
+    front.bytes[front.length - 1] = ',';
+    for (const char *p = ceduo_text_string(state->reason ? &c->failed : lines), *end; (end = strchr(p, '\n')); p = end + 1) {
         LOCAL_TEXT(line);
-        append_copied(c->each, false, &line);
+        ceduo_text_append_n(&line, front.bytes, front.length);
         ceduo_text_append_n(&line, p, (size_t)(end - p));
-        append_line(c, &line, out);
+        size_t n = split_line(line.bytes, line.length, c->cells, c->count);
+        memset(c->cells + n, 0, (c->count - n) * sizeof *c->cells);
+        visit(c, context);
     }
+}
+
+void ceduo_columns_print(const struct columns *c, void *out)
+{
+    for (size_t k = 0; k < c->chosen_count; k++) {
+        const struct csv_span cell = c->cells[c->chosen[k].column];
+        ceduo_text_append(out, k > 0 ? "," : "");
+        if (cell.n > 0)
+            ceduo_text_append_n(out, cell.p, cell.n);
+    }
+    ceduo_text_append_char(out, '\n');
 }

@@ -3,10 +3,12 @@
  * twice: the first pass finds the rows and reports their errors, the second reads their cells. */
 #include "each.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/hash.h"
 #include "base/language.h"
+#include "base/oom.h"
 #include "io/file.h"
 #include "messages.h"
 
@@ -15,9 +17,15 @@
 
 /* ---- the table ---- */
 
-static bool is_wanted(const struct each_head *head, bool set)
+bool ceduo_each_is_copied(const struct each *e, size_t column)
 {
-    return head->name[0] && ceduo_each_is_copied(head) != set;
+    const struct each_head *head = &e->heads[column];
+    return head->name[0] && (head->sets == PATH_UNKNOWN || column == e->key);
+}
+
+static bool is_set(const struct each_head *head)
+{
+    return head->name[0] && head->sets != PATH_UNKNOWN;
 }
 
 /* Append the names of the columns that are set (`set`) or copied. */
@@ -25,7 +33,7 @@ static void append_names(const struct each *e, bool set, struct text *text)
 {
     size_t n = 0;
     for (size_t i = 0; i < e->heads_count; i++)
-        if (is_wanted(&e->heads[i], set))
+        if (set ? is_set(&e->heads[i]) : ceduo_each_is_copied(e, i))
             ceduo_csv_append_name(text, &n, e->heads[i].name, strlen(e->heads[i].name));
     ceduo_csv_append_rest(text, n);
     if (n == 0)
@@ -45,6 +53,21 @@ static void print_columns(const struct each *e)
         ceduo_print_message(e->table.source->name, ceduo_text_string(&line));
 }
 
+/* Find the column of --key. */
+static bool find_key(struct each *e)
+{
+    const char *key = e->given->key;
+    LOCAL_TEXT(names);
+    for (size_t i = 0; key && i < e->heads_count; i++)
+        if (strcmp(e->heads[i].name, key) == 0)
+            e->key = i;
+    if (!key || e->key != NO_COLUMN)
+        return true;
+    ceduo_csv_append_heads(&e->table, &names);
+    return ceduo_problem(e->table.problems, e->table.source, e->table.head_place.line, 1,
+                         _("no column '%s' for --key; the columns are: %s"), key, ceduo_text_string(&names));
+}
+
 static bool read_heads(struct each *e)
 {
     const struct csv *t = &e->table;
@@ -55,11 +78,13 @@ static bool read_heads(struct each *e)
         return false;
     size_t set = 0;
     for (size_t i = 0; i < e->heads_count; i++) {
-        set += is_wanted(&e->heads[i], true);
+        set += is_set(&e->heads[i]);
         e->names_files |= e->heads[i].sets == PATH_FILE || e->heads[i].sets == PATH_OTHER;
     }
-    return set > 0 || ceduo_problem(t->problems, t->source, t->head_place.line, 1,
-                                    _("no column changes the scene; name one after a path of --set"));
+    if (set == 0)
+        return ceduo_problem(t->problems, t->source, t->head_place.line, 1,
+                             _("no column changes the scene; name one after a path of --set"));
+    return find_key(e) && (e->given->format != CEDUO_GEOJSON || ceduo_geometry_find(e));
 }
 
 /* True if a cell is a YAML mapping or list: {mean: 1, spread: 0.2}. */
@@ -84,23 +109,80 @@ static bool check_numbers(const struct each *e)
     return good;
 }
 
+/* Check the present record; its line of an earlier row with the same key is known. */
+static bool check_row(const struct each *e, size_t repeats)
+{
+    const struct csv *t = &e->table;
+    struct csv_cell key = e->key == NO_COLUMN || t->bad ? (struct csv_cell){0} : ceduo_csv_next_cell(t, e->key);
+    bool good = !t->bad && check_numbers(e);
+    if (good && e->key != NO_COLUMN && key.n == 0)
+        good = ceduo_csv_error(t, key, _("the key '%s' is empty; name each row"), e->given->key);
+    if (good && e->given->format == CEDUO_GEOJSON)
+        good = ceduo_geometry_check(e);
+    if (repeats > 0)
+        good = ceduo_problem(t->problems, t->source, t->place.line, 1,
+                             _("the key '%.*s' is also that of line %zu; give each row its own"), (int)key.n, key.p, repeats);
+    return good;
+}
+
+struct row_key {
+    uint64_t hash;
+    size_t row;
+};
+
+static int compare_keys(const void *a, const void *b)
+{
+    const struct row_key *x = a, *y = b;
+    int order = (x->hash > y->hash) - (x->hash < y->hash);
+    return order != 0 ? order : (x->row > y->row) - (x->row < y->row);
+}
+
+/* Find rows with the key of an earlier row. Reports them by line. */
+static void find_repeated(struct each *e, struct row_key *keys, size_t n)
+{
+    if (n > 1)
+        qsort(keys, n, sizeof *keys, compare_keys);
+    for (size_t i = 1, first = 0; i < n; i++) {
+        first = keys[i].hash == keys[first].hash ? first : i;
+        if (first < i)
+            e->rows[keys[i].row].repeats = e->rows[keys[first].row].place.line;
+    }
+    for (size_t i = 0; i < e->rows_count; i++) {
+        struct each_row *row = &e->rows[i];
+        if (row->repeats == 0)
+            continue;
+        ceduo_csv_reread(&e->table, row->place);
+        check_row(e, row->repeats);
+        row->bad = e->bad_rows = true;
+        ceduo_arena_free(&e->row_arena);
+    }
+}
+
 /* Find the rows and report errors in them. */
 static bool read_rows(struct each *e)
 {
     struct csv *t = &e->table;
     for (size_t i = 0; i < e->heads_count; i++)
-        t->heads[i].numeric = e->heads[i].sets == PATH_NUMBER;
+        t->heads[i].numeric |= e->heads[i].sets == PATH_NUMBER;
     ceduo_csv_scan(t);
     if (t->rows == 0)
         return ceduo_problem(t->problems, t->source, 0, 0, _("the table has no row"));
     e->rows = ceduo_arena_alloc(&e->arena, t->rows * sizeof *e->rows);
+    struct row_key *keys = ceduo_check_memory(calloc(t->rows, sizeof *keys));
+    size_t n = 0;
     t->arena = &e->row_arena; /* the list of cells has its final size after the scan */
     while (ceduo_csv_next_row(t)) {
-        bool bad = t->bad || !check_numbers(e);
+        bool bad = !check_row(e, 0);
         e->bad_rows |= bad;
-        e->rows[e->rows_count++] = (struct each_row){t->place, bad};
+        if (!bad && e->key != NO_COLUMN) {
+            struct csv_cell key = ceduo_csv_next_cell(t, e->key);
+            keys[n++] = (struct row_key){hash_bytes(key.p, key.n), e->rows_count};
+        }
+        e->rows[e->rows_count++] = (struct each_row){t->place, bad, 0};
         ceduo_arena_free(&e->row_arena);
     }
+    find_repeated(e, keys, n);
+    free(keys);
     return true;
 }
 
@@ -122,7 +204,7 @@ static enum exit_status read_table(struct each *e)
 
 enum exit_status ceduo_each_open(struct each *e, const struct arguments *a)
 {
-    *e = (struct each){.arguments = *a, .given = a};
+    *e = (struct each){.arguments = *a, .given = a, .key = NO_COLUMN};
     enum exit_status status = a->each ? read_table(e) : EXIT_DONE;
     e->count = a->scenes_count * (a->each ? e->rows_count : 1);
     e->arguments.sets.items = ceduo_arena_alloc(&e->arena, (a->sets.n + e->heads_count + 1) * sizeof *a->sets.items);
@@ -161,21 +243,25 @@ static const char *make_change(struct each *e, size_t column)
     return ceduo_arena_string(&e->row_arena, ceduo_text_string(&change));
 }
 
-/* Read the cells of a row and its changes. */
+/* Read the cells of a row, its name and its changes. */
 static void read_row(struct each *e, const struct each_row *row)
 {
     struct word_list *sets = &e->arguments.sets;
     ceduo_csv_reread(&e->table, row->place);
-    e->arguments.label = e->name;
     for (size_t i = e->heads_count; i-- > 0;) {
         struct csv_cell cell = ceduo_csv_next_cell(&e->table, i);
         e->cells[i] = ceduo_arena_copy(&e->row_arena, cell.p, cell.n);
-        if (ceduo_each_is_copied(&e->heads[i]) && cell.n > 0 &&
+        if (ceduo_each_is_copied(e, i) && cell.n > 0 &&
             cell.n <= LABEL_MAX) /* the first short cell, because a geometry is long */
             e->arguments.label = e->cells[i];
     }
+    e->name = ceduo_arena_format(&e->row_arena, "%s:%zu", e->given->each, row->place.line);
+    if (e->key != NO_COLUMN && e->cells[e->key][0]) {
+        e->name = ceduo_arena_format(&e->row_arena, "%s (%s)", e->name, e->cells[e->key]);
+        e->arguments.label = e->cells[e->key];
+    }
     for (size_t i = 0; i < e->heads_count && !row->bad; i++) {
-        const char *change = is_wanted(&e->heads[i], true) ? make_change(e, i) : NULL;
+        const char *change = is_set(&e->heads[i]) ? make_change(e, i) : NULL;
         if (change)
             sets->items[sets->n++] = change;
     }
@@ -184,25 +270,38 @@ static void read_row(struct each *e, const struct each_row *row)
 bool ceduo_each_next(struct each *e)
 {
     const struct arguments *given = e->given;
-    const struct each_row *row = NULL;
-    do {
-        if (e->current == e->count)
-            return false;
-        size_t scenes = given->scenes_count;
-        ceduo_arena_free(&e->row_arena);
-        row = e->rows ? &e->rows[e->current / scenes] : NULL;
-        e->path = given->scenes[e->current++ % scenes];
-        e->name = row ? ceduo_arena_format(&e->row_arena, "%s:%zu", given->each, row->place.line) : e->path;
-        e->arguments.label = NULL;
-        e->arguments.called = row || e->count > 1 ? e->name : NULL;
-        e->arguments.sets.n = given->sets.n;
-        if (row)
-            read_row(e, row);
-        e->arguments.cells = e->arguments.sets.n - given->sets.n;
-        if (row && row->bad)
-            ceduo_each_note_failed(e);
-    } while (row && row->bad);
+    if (e->current == e->count)
+        return false;
+    size_t scenes = given->scenes_count;
+    ceduo_arena_free(&e->row_arena);
+    e->arguments.number = e->current;
+    e->row = e->rows ? &e->rows[e->current / scenes] : NULL;
+    e->path = given->scenes[e->current++ % scenes];
+    e->name = e->path;
+    e->arguments.label = NULL;
+    e->arguments.sets.n = given->sets.n;
+    if (e->row)
+        read_row(e, e->row);
+    e->arguments.called = e->row || e->count > 1 ? e->name : NULL;
+    e->arguments.cells = e->arguments.sets.n - given->sets.n;
     return true;
+}
+
+void ceduo_each_reason(struct each *e, struct text *reason)
+{
+    if (!e->row || !e->row->bad)
+        return;
+    LOCAL_PROBLEMS(problems);
+    problems.brief = true;
+    e->table.problems = &problems;
+    e->table.next = e->row->place;
+    ceduo_language_set_data(true);
+    ceduo_csv_next_row(&e->table); /* reports a broken row */
+    check_row(e, e->row->repeats);
+    ceduo_language_set_data(false);
+    e->table.problems = NULL;
+    if (problems.wrong.n > 0)
+        ceduo_text_append(reason, problems.wrong.items[0].message);
 }
 
 uint64_t ceduo_each_hash(const struct each *e)
@@ -216,19 +315,21 @@ uint64_t ceduo_each_hash(const struct each *e)
 
 /* ---- answers and failures ---- */
 
+void ceduo_each_json_cell(struct json *json, const char *name, const char *cell)
+{
+    double number;
+    if (ceduo_number_read(cell, &number) == CEDUO_NUMBER_GOOD && strcmp(ROUNDTRIP(number), cell) == 0)
+        ceduo_json_number(json, name, number);
+    else
+        ceduo_json_string(json, name, cell[0] ? cell : NULL);
+}
+
 void ceduo_each_json(const struct each *e, struct json *json)
 {
     ceduo_json_open(json, "row", '{');
-    for (size_t i = 0; i < e->heads_count; i++) {
-        const char *name = e->heads[i].name, *cell = e->cells[i];
-        double number;
-        if (!ceduo_each_is_copied(&e->heads[i]))
-            continue;
-        if (ceduo_number_read(cell, &number) == CEDUO_NUMBER_GOOD && strcmp(ROUNDTRIP(number), cell) == 0)
-            ceduo_json_number(json, name, number);
-        else
-            ceduo_json_string(json, name, cell[0] ? cell : NULL);
-    }
+    for (size_t i = 0; i < e->heads_count; i++)
+        if (ceduo_each_is_copied(e, i) && (e->key == NO_COLUMN || i == e->key))
+            ceduo_each_json_cell(json, e->heads[i].name, e->cells[i]);
     ceduo_json_close(json, '}');
 }
 
@@ -236,7 +337,7 @@ void ceduo_each_page(const struct each *e, struct text *page)
 {
     ceduo_text_append_escaped(page, e->name);
     for (size_t i = 0; i < e->heads_count; i++)
-        if (ceduo_each_is_copied(&e->heads[i]) && e->cells[i][0]) {
+        if (ceduo_each_is_copied(e, i) && (e->key == NO_COLUMN || i == e->key) && e->cells[i][0]) {
             ceduo_text_append(page, " \xc2\xb7 ");
             ceduo_text_append_escaped(page, e->cells[i]);
         }
@@ -248,7 +349,7 @@ void ceduo_each_note_failed(struct each *e)
     const char *label = e->arguments.label;
     if (e->failures++ < NAMES_MAX) {
         ceduo_text_format(&e->failed, e->failures > 1 ? ", %s" : "%s", e->name);
-        if (label && label != e->name)
+        if (label && e->key == NO_COLUMN)
             ceduo_text_format(&e->failed, " (%s)", label);
     } else if (e->failures == NAMES_MAX + 1) {
         ceduo_text_append(&e->failed, ", \xe2\x80\xa6");

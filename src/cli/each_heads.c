@@ -200,8 +200,8 @@ bool ceduo_each_heads(const struct csv *table, struct arena *arena, struct each_
     for (size_t i = 0; i < n; i++) {
         const char *name = ceduo_arena_copy(arena, table->heads[i].p, table->heads[i].n);
         enum path_value sets = name[0] ? ceduo_schema_value(name) : PATH_UNKNOWN;
-        heads[i] = (struct each_head){name, name, sets};
-        if (ceduo_each_is_copied(&heads[i]) && bad < CEDUO_PROBLEMS_MAX)
+        heads[i] = (struct each_head){name, sets};
+        if (name[0] && sets == PATH_UNKNOWN && bad < CEDUO_PROBLEMS_MAX)
             bad += !check_copied(table, i, &m, &scratch, name);
     }
     ceduo_arena_free(&m.arena);

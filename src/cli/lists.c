@@ -85,6 +85,7 @@ enum exit_status ceduo_batch_columns(const struct arguments *a)
 {
     struct text rows = {0};
     ceduo_text_format(&rows, "%s\t%s\t%s\t%s\t%s\n", _("column"), _("type"), _("unit"), _("empty if"), _("meaning"));
+    ceduo_figures_columns(&rows, ceduo_row_figures, false);
     ceduo_figures_columns(&rows, ceduo_result_csv(a->stands, a->years)->columns, false);
     return print_table(a, &rows, "");
 }
@@ -98,7 +99,8 @@ enum exit_status ceduo_batch_schema(const struct arguments *a)
     } outputs[] = {{"ceduo-result-1", ceduo_result_figures, true}, /* in the order of the option's words */
                    {"ceduo-find-1", ceduo_find_figures, true},
                    {"ceduo-sensitivity-1", ceduo_uncertainty_figures, true},
-                   {"ceduo-calibration-1", ceduo_calibration_figures, false}};
+                   {"ceduo-calibration-1", ceduo_calibration_figures, false},
+                   {"ceduo-failed-1", ceduo_failed_figures, true}};
     LOCAL_TEXT(schema);
     ceduo_figures_schema(&schema, outputs[a->schema].format, outputs[a->schema].figures, outputs[a->schema].row);
     return ceduo_output_write(a, &schema);

@@ -284,8 +284,8 @@ enum {
 static const struct option_row rows[] = {
     {"batch", 'b', NULL, NULL, 0, MODE_BATCH, M_SURVEY,
      .help = N_("compute the scenes and print the result, without a terminal")},
-    {"format", 'f', "table|csv|json", set_word, MEMBER(format), MODE_TERMINAL, M_CHECK | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN,
-     .help = N_("format of the output (table)")},
+    {"format", 'f', "table|csv|json|geojson", set_word, MEMBER(format), MODE_TERMINAL,
+     M_CHECK | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN, .help = N_("format of the output (table)")},
     {"details", 0, NULL, set_flag, MEMBER(details), MODE_BATCH, M_CHECK | M_FIND | M_UNCERTAINTY | M_FIT | M_PAGE | M_SURVEY,
      .help = N_("print the whole page with every figure, not only the answer")},
     {"output", 'o', "FILE", set_output, 0, MODE_TERMINAL, M_CHECK | M_PAGE | M_SCREEN,
@@ -300,11 +300,15 @@ static const struct option_row rows[] = {
     {"rows", 0, "controls|stands", set_word, MEMBER(stands), MODE_TERMINAL,
      M_CHECK | M_FIND | M_UNCERTAINTY | M_FIT | M_PAGE | M_SURVEY | M_SCREEN, NEEDS_CSV,
      .help = N_("what each row of CSV describes (controls)")},
-    {"each", 0, "ROWS.csv", set_text, MEMBER(each), MODE_TERMINAL, M_FIT | M_PAGE | M_SURVEY | M_SCREEN,
+    {"each", 0, "ROWS.csv", set_text, MEMBER(each), MODE_TERMINAL, M_FIT | M_SURVEY | M_SCREEN,
      .help = N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "
                 "copied")},
+    {"key", 0, "NAME", set_text, MEMBER(key), MODE_TERMINAL, M_FIT | M_SURVEY | M_SCREEN, NEEDS_EACH,
+     .help =
+         N_("the column of --each that names a row: messages use it, and other copied columns are printed only if --columns "
+            "names them")},
     {"columns", 0, "LIST", set_text, MEMBER(columns), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_LISTS | M_SCREEN,
-     NEEDS_CSV, .help = N_("print these columns of CSV, with commas between their names")},
+     NEEDS_CSV, .help = N_("print these columns of CSV, with commas between their names; NAME=COLUMN renames one")},
     {"resume", 0, NULL, set_flag, MEMBER(resume), MODE_TERMINAL, M_CHECK | M_FIT | M_PAGE | M_SURVEY | M_SCREEN, NEEDS_FILE,
      .help = N_("with --each and -o: do not compute rows again that FILE has; FILE grows row by row, and so does FILE.resume")},
     {"seed", 0, "N", set_seed, MEMBER(seed), MODE_TERMINAL, M_SURVEY | M_SCREEN,
@@ -327,7 +331,10 @@ static const struct option_row rows[] = {
      .help = N_("show the effect of uncertain inputs on the result; N points (256)"), .lo = 2,
      .hi = CEDUO_UNCERTAINTY_POINTS_MAX},
     {"report", 0, "FILE", set_report, 0, MODE_REPORT, M_CHECK | M_SURVEY,
-     .help = N_("write a report as HTML, with pictures and a chapter for each scene; - is standard output")},
+     .help = N_("write a report as HTML, with pictures and a chapter for each scene; with --each, one page for all rows; - is "
+                "standard output")},
+    {"chapters", 0, "N", set_count, MEMBER(chapters), MODE_TERMINAL, ~(unsigned)M_PAGE, NEEDS_EACH,
+     .help = N_("with --report and --each: add a chapter for each of the N worst rows (0)"), .hi = 1000},
     {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, M_CHECK | M_PAGE | M_SURVEY,
      .help = N_("fit this value to the observations, between LO and HI; may be repeated; -o FILE.yaml writes the first scene "
                 "with the fitted values")},
@@ -349,7 +356,7 @@ static const struct option_row rows[] = {
      .help = N_("list the scenes, slopes, stands and rules that can be named")},
     {"list-columns", 0, NULL, NULL, 0, MODE_COLUMNS, M_SURVEY,
      .help = N_("list path, type, unit and meaning of each column of CSV, also with --rows stands or --years")},
-    {"schema", 0, "result|find|sensitivity|calibration", set_word, MEMBER(schema), MODE_SCHEMA, M_SURVEY,
+    {"schema", 0, "result|find|sensitivity|calibration|failed", set_word, MEMBER(schema), MODE_SCHEMA, M_SURVEY,
      .help = N_("print the JSON Schema of this output")},
     {"survey", 0, "FILE.csv", set_text, MEMBER(survey), MODE_SURVEY, M_CHECK,
      .help = N_("write the stand of a survey: a CSV file with a row for each stem on sample plots; --survey --template writes "
@@ -423,7 +430,7 @@ static enum exit_status report_requirement(const char *option, const char *neede
  * format. */
 static enum exit_status check_rows(const struct arguments *a, const char *mode)
 {
-    bool plot = a->plot != CEDUO_PLOT_NONE, csv = a->format == CEDUO_CSV;
+    bool plot = a->plot != CEDUO_PLOT_NONE, csv = a->format == CEDUO_CSV, columns = ceduo_format_has_columns(a->format);
     const struct {
         const char *name;
         bool given;
@@ -431,7 +438,8 @@ static enum exit_status check_rows(const struct arguments *a, const char *mode)
                  [NEEDS_FIND] = {"--find", a->mode == MODE_FIND},
                  [NEEDS_PLOT] = {"--plot", plot},
                  [NEEDS_PICTURE] = {"--plot", plot || a->mode == MODE_TERMINAL},
-                 [NEEDS_CSV] = {"--format csv", csv || a->mode == MODE_COLUMNS},
+                 [NEEDS_CSV] = {"--format csv", columns || a->mode == MODE_COLUMNS},
+                 [NEEDS_EACH] = {"--each", a->each != NULL},
                  [NEEDS_FILE] = {"--each --output --format csv", a->each && a->output && csv}};
     for (size_t i = 0; i < OPTIONS; i++) {
         const struct option_row *row = &rows[i];
@@ -453,6 +461,7 @@ static enum exit_status check_rows(const struct arguments *a, const char *mode)
 /* Check the combination of options and the number of scenes. */
 static enum exit_status check_arguments(const struct arguments *a)
 {
+    static const char *const formats[] = {"format table", "format csv", "format json", "format geojson"};
     const char *mode = "batch", *goal = ceduo_goals[a->goal].word;
     for (size_t i = 0; i < OPTIONS; i++)
         if (rows[i].mode == a->mode && (a->given >> i & 1))
@@ -469,7 +478,9 @@ static enum exit_status check_arguments(const struct arguments *a)
     if (a->mode == MODE_FIND && a->window.step > 0)
         return report_conflict("find", "years A:B");
     if (plot && a->format != CEDUO_TABLE)
-        return report_conflict("plot", a->format == CEDUO_CSV ? "format csv" : "format json");
+        return report_conflict("plot", formats[a->format]);
+    if (a->format == CEDUO_GEOJSON && !a->each)
+        return report_requirement(formats[a->format], "--each");
     if (plot && a->years && a->plot != CEDUO_PLOT_ROTATION && a->plot != CEDUO_PLOT_TRADEOFF)
         return report_requirement("years", "--plot rotation|tradeoff");
     if (a->mode == MODE_FIND && !ceduo_goals[a->goal].usual && isnan(a->goal_value))

@@ -7,6 +7,7 @@
 #include "batch.h"
 #include "messages.h"
 #include "model/search.h"
+#include "study/verdict.h"
 #include "view/figures.h"
 #include "view/page.h"
 #include "view/svg.h"
@@ -19,7 +20,7 @@ static bool print_figures(const struct arguments *a, const struct ceduo_figure *
 {
     if (a->format == CEDUO_JSON) {
         ceduo_figures_json(out, figures, object, a->details);
-    } else if (a->format == CEDUO_CSV) {
+    } else if (ceduo_format_has_columns(a->format)) {
         ceduo_text_append(out, ""); /* so that an answer without rows prints the header */
         ceduo_csv_rows(out, csv, object);
     }
@@ -28,29 +29,35 @@ static bool print_figures(const struct arguments *a, const struct ceduo_figure *
 
 /* ---- pages ---- */
 
+/* True unless --columns has no column of this group. */
+static bool has_column(const struct arguments *a, const char *group)
+{
+    return !a->columns || strstr(a->columns, group);
+}
+
 /* True unless --columns has no column that depends on future years. */
 static bool judges_years(const struct arguments *a)
 {
-    return !a->columns || strstr(a->columns, "window.") || strstr(a->columns, "verdict.");
+    return has_column(a, "worst.") || has_column(a, "verdict.");
 }
 
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct query q;
-    bool page = a->format == CEDUO_TABLE, stands = a->stands && a->format == CEDUO_CSV;
+    bool page = a->format == CEDUO_TABLE, stands = a->stands && !page;
     ceduo_query_begin(&q, a, file);
     uint64_t rocks = q.request.rocks;
     if (stands) /* --rows stands needs no simulation */
         q.request.rocks = 0;
     if (!a->years && !stands && judges_years(a))
-        ceduo_query_add_years(&q.request);
+        ceduo_verdict_add_years(&q.request);
     if (page && !a->years) { /* simulate only what the page prints */
         q.request.rotations = a->details;
         q.request.block_rocks = a->details ? BLOCK_ROCKS : 0;
     }
-    q.request.run.alternative_energy = !page || a->details;
+    q.request.run.alternative_energy = page ? a->details : has_column(a, "other_energy.");
     enum ceduo_status status = ceduo_query_run(&q);
-    if (status == CEDUO_OK && page)
+    if (status == CEDUO_OK && (page || (a->columns && strstr(a->columns, "uncertainty."))))
         status = ceduo_query_add_uncertainty(&q, a, file);
     if (status == CEDUO_OK) {
         const struct ceduo_report report = {.file = file,
@@ -214,10 +221,17 @@ static void append_word(struct text *text, const char *before, const char *word)
         ceduo_text_append_quoted(text, word);
 }
 
-/* Append the command line with all options that affect the page; not its file name or the threads. */
-static void append_command(struct text *text, const struct arguments *a)
+/* Append the command line with all options that affect the page; not its file name or the threads. A chapter of a region has the
+ * changes of its row. */
+void ceduo_print_command(struct text *text, const struct arguments *a)
 {
     ceduo_text_append(text, "ceduo --report report.html");
+    if (a->each && !a->called)
+        append_word(text, " --each ", a->each);
+    if (a->key && !a->called)
+        append_word(text, " --key ", a->key);
+    if (a->chapters > 0 && !a->called)
+        ceduo_text_format(text, " --chapters %llu", (unsigned long long)a->chapters);
     if (strcmp(_("en"), "en") != 0)
         append_word(text, " --language ", _("en"));
     if (a->rocks > 0)
@@ -236,6 +250,22 @@ static void append_command(struct text *text, const struct arguments *a)
         append_word(text, " ", a->scenes[i]);
 }
 
+enum exit_status ceduo_print_line(const struct arguments *a, struct scene_file *file, struct text *out)
+{
+    struct query q;
+    ceduo_query_begin(&q, a, file);
+    if (!a->years)
+        ceduo_verdict_add_years(&q.request);
+    q.request.run.alternative_energy = false;
+    enum ceduo_status status = ceduo_query_run(&q);
+    if (status == CEDUO_OK) {
+        const struct ceduo_report report = {.file = file, .result = q.results.result, .verdict = &q.verdict};
+        ceduo_region_add(a->region, &report, a->label ? a->label : a->called, a->number);
+        ceduo_text_append(out, ""); /* an answer, although the page is printed later */
+    }
+    return ceduo_query_end(&q, file, status);
+}
+
 /* Moderate numbers: a page does not show more digits. */
 #define YEAR_ROCKS   1024
 #define TRAJECTORIES 80 /* more would not look denser, but make the page large */
@@ -249,7 +279,7 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
     if (a->window.step > 0)
         q.request.year_rocks = YEAR_ROCKS;
     else
-        ceduo_query_add_years(&q.request);
+        ceduo_verdict_add_years(&q.request);
     q.request.block_rocks = file->scene.options_count == 1 ? BLOCK_ROCKS : 0;
     enum ceduo_status status = ceduo_query_run(&q);
     if (status == CEDUO_OK)
@@ -257,7 +287,7 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
     if (status == CEDUO_OK) {
         LOCAL_TEXT(command);
         LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
-        append_command(&command, a);
+        ceduo_print_command(&command, a);
         struct ceduo_report report = {.file = file,
                                       .result = q.results.result,
                                       .verdict = &q.verdict,

@@ -202,16 +202,6 @@ void ceduo_query_begin(struct query *q, const struct arguments *a, const struct 
     request->window = a->window;
 }
 
-#define YEAR_ROCKS 1000 /* of each year: the error of a share near the limit is 14 of 1000 */
-#define YEARS_MAX  60   /* of a longer window, only some years are simulated */
-
-void ceduo_query_add_years(struct ceduo_request *q)
-{
-    q->years = q->years_independent = true;
-    q->year_rocks = YEAR_ROCKS;
-    q->years_max = YEARS_MAX;
-}
-
 enum ceduo_status ceduo_query_run(struct query *q)
 {
     struct ceduo_pool *pool = NULL; /* for the pictures */

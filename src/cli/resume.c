@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -79,7 +78,18 @@ static uint64_t hash_columns(const struct each *e, const struct text *head)
 {
     uint64_t hash = hash_bytes(head->bytes, head->length);
     for (size_t i = 0; i < e->heads_count; i++)
-        hash_text(&hash, ceduo_each_is_copied(&e->heads[i]) ? "" : e->heads[i].name);
+        hash_text(&hash, e->heads[i].sets == PATH_UNKNOWN ? "" : e->heads[i].name);
+    return hash;
+}
+
+uint64_t ceduo_resume_run(const struct arguments *a, const struct scene_file *file)
+{
+    uint64_t hash = ceduo_resume_files(file);
+    hash_text(&hash, CEDUO_VERSION);
+    hash_count(&hash, hash_options(a));
+    hash_count(&hash, a->rocks);
+    for (size_t i = 0; i < a->sets.n; i++)
+        hash_text(&hash, a->sets.items[i]);
     return hash;
 }
 
@@ -138,23 +148,55 @@ static enum exit_status open_locked(struct resume *r)
     }
 }
 
-/* Map a file into memory. Return "" if it is empty; NULL with errno set on failure. */
-static const char *map_file(int fd, size_t *n)
+/* A file read through a buffer, because an output may be larger than memory. */
+#define BUFFER ((size_t)1 << 16)
+struct reader {
+    int fd;
+    size_t length, from, n; /* bytes of the file; begin and length of the buffer */
+    bool failed;            /* with errno set */
+    char bytes[BUFFER];
+};
+
+static void start_reader(struct reader *reader, int fd)
 {
-    struct stat st;
-    if (fstat(fd, &st) != 0)
-        return NULL;
-    *n = (size_t)st.st_size;
-    if (*n == 0)
-        return "";
-    void *bytes = mmap(NULL, *n, PROT_READ, MAP_PRIVATE, fd, 0);
-    return bytes == MAP_FAILED ? NULL : bytes;
+    struct stat st = {.st_size = 0};
+    reader->fd = fd;
+    reader->failed = fstat(fd, &st) != 0;
+    reader->length = (size_t)st.st_size;
+    reader->from = reader->n = 0;
 }
 
-static void unmap_file(const char *bytes, size_t n)
+/* Return the bytes at an offset, and their number *n: at least `wanted`, unless the file ends. */
+static const char *read_at(struct reader *reader, size_t offset, size_t wanted, size_t *n)
 {
-    if (bytes && n > 0)
-        munmap((void *)(uintptr_t)bytes, n);
+    bool inside = offset >= reader->from && offset + wanted <= reader->from + reader->n;
+    if (!inside) {
+        reader->from = offset;
+        reader->n = 0;
+    }
+    for (ssize_t more = 1; !inside && more != 0 && reader->n < wanted;) {
+        more = pread(reader->fd, reader->bytes + reader->n, BUFFER - reader->n, (off_t)(offset + reader->n));
+        if (more < 0 && errno == EINTR)
+            continue;
+        reader->failed |= more < 0;
+        if (more <= 0)
+            break;
+        reader->n += (size_t)more;
+    }
+    *n = reader->from + reader->n - offset;
+    return reader->bytes + (offset - reader->from);
+}
+
+/* True if the file begins with these bytes. */
+static bool begins_with(struct reader *reader, const char *bytes, size_t length)
+{
+    for (size_t offset = 0, n; offset < length; offset += n) {
+        const char *found = read_at(reader, offset, 1, &n);
+        n = n < length - offset ? n : length - offset;
+        if (n == 0 || memcmp(found, bytes + offset, n) != 0)
+            return false;
+    }
+    return true;
 }
 
 /* Append all bytes, or none, to a file of `end` bytes. False with errno set. */
@@ -209,17 +251,33 @@ static bool read_part(const char *line, size_t n, struct resume_part *part)
     return true;
 }
 
-/* Find the lines of a part, which begin at `from`. Set *whole to true if they match the side file. Return the byte after them. */
-static size_t find_lines(const char *bytes, size_t n, size_t from, struct resume_part *part, bool *whole)
+static uint64_t hash_range(struct reader *reader, size_t from, size_t length)
 {
-    size_t end = from;
-    for (size_t i = 0; i < part->lines && end < n; i++) {
-        const char *line = memchr(bytes + end, '\n', n - end);
-        end = line ? (size_t)(line - bytes) + 1 : n;
+    uint64_t hash = hash_begin(length);
+    for (size_t offset = 0, n; offset < length; offset += n) {
+        const char *bytes = read_at(reader, from + offset, 8, &n);
+        n = n >= length - offset ? length - offset : n - n % 8;
+        if (n == 0)
+            break;
+        hash_chunk(&hash, bytes, n);
+    }
+    return hash;
+}
+
+/* Find the lines of a part, which begin at `from`. Set *whole to true if they match the side file. Return the byte after them. */
+static size_t find_lines(struct reader *reader, size_t from, struct resume_part *part, bool *whole)
+{
+    size_t end = from, n;
+    for (size_t i = 0; i < part->lines;) {
+        const char *bytes = read_at(reader, end, 1, &n), *line = memchr(bytes, '\n', n);
+        end += line ? (size_t)(line - bytes) + 1 : n;
+        i += line != NULL;
+        if (n == 0)
+            break;
     }
     part->from = from;
     part->n = end - from;
-    *whole = hash_bytes(bytes + from, part->n) == part->hash;
+    *whole = hash_range(reader, from, part->n) == part->hash;
     return end;
 }
 
@@ -231,15 +289,16 @@ static int compare_parts(const void *a, const void *b)
 }
 
 /* Find the complete parts of the output, and truncate both files after the last of them. */
-static bool find_parts(struct resume *r, const char *output, size_t output_n, const char *side, size_t side_n)
+static bool find_parts(struct resume *r, struct reader *output, struct reader *side)
 {
-    size_t offset = r->identity.length, side_end = offset, from = r->head->length, max = (side_n - offset) / PART_LENGTH;
+    size_t offset = r->identity.length, side_end = offset, from = r->head->length, max = (side->length - offset) / PART_LENGTH,
+           n;
     struct resume_part part;
     r->old_parts = ceduo_check_memory(calloc(max + 1, sizeof *r->old_parts));
     r->end = from;
-    for (; read_part(side + offset, side_n - offset, &part); offset += PART_LENGTH) {
+    for (const char *line; line = read_at(side, offset, PART_LENGTH, &n), read_part(line, n, &part); offset += PART_LENGTH) {
         bool whole;
-        from = find_lines(output, output_n, from, &part, &whole);
+        from = find_lines(output, from, &part, &whole);
         if (!whole)
             continue;
         r->old_parts[r->old_count++] = part;
@@ -248,48 +307,50 @@ static bool find_parts(struct resume *r, const char *output, size_t output_n, co
     }
     if (r->old_count > 0)
         qsort(r->old_parts, r->old_count, sizeof *r->old_parts, compare_parts);
-    return ftruncate(r->file, (off_t)r->end) == 0 && ftruncate(r->side, (off_t)side_end) == 0;
+    return !output->failed && !side->failed && ftruncate(r->file, (off_t)r->end) == 0 &&
+           ftruncate(r->side, (off_t)side_end) == 0;
 }
 
 /* Compare the files with this run. Set *again to true if they have no usable line. */
-static enum exit_status compare_run(const struct resume *r, const char *output, size_t output_n, const char *side,
-                                    size_t side_n, bool *again)
+static enum exit_status compare_run(const struct resume *r, struct reader *output, struct reader *side, bool *again)
 {
-    size_t format = strlen(FORMAT), head = r->head->length;
-    *again = output_n < head && memcmp(output, r->head->bytes, output_n) == 0;
-    if (side_n > 0 && (side_n < format ? memcmp(side, FORMAT, side_n) : memcmp(side, FORMAT, format)) != 0)
+    size_t format = strlen(FORMAT), head = r->head->length, n;
+    *again = output->length < head && begins_with(output, r->head->bytes, output->length);
+    if (!begins_with(side, FORMAT, side->length < format ? side->length : format))
         return refuse(r->side_path, _("this is not a file of --resume; move it away"));
-    if (output_n == 0)
+    if (output->length == 0)
         return EXIT_DONE;
-    if (side_n == 0) {
+    if (side->length == 0) {
         LOCAL_TEXT(reason);
         ceduo_text_format(&reason, _("its side file %s is missing; write elsewhere, or remove it"), r->side_path);
         return refuse(r->arguments->output, ceduo_text_string(&reason));
     }
     LOCAL_TEXT(found);
     LOCAL_TEXT(names);
-    ceduo_text_append_n(&found, side, side_n < 2 * r->identity.length ? side_n : 2 * r->identity.length);
+    const char *identity = read_at(side, 0, 2 * r->identity.length, &n);
+    ceduo_text_append_n(&found, identity, n < 2 * r->identity.length ? n : 2 * r->identity.length);
     append_differences(ceduo_text_string(&r->identity), ceduo_text_string(&found), &names);
-    if (names.length == 0 && !*again && (output_n < head || memcmp(output, r->head->bytes, head) != 0))
+    if (names.length == 0 && !*again && !begins_with(output, r->head->bytes, head))
         ceduo_text_append(&names, _("columns")); /* the head differs */
-    *again |= side_n < r->identity.length;
+    *again |= side->length < r->identity.length;
     return names.length > 0 ? refuse_other(r, ceduo_text_string(&names)) : EXIT_DONE;
 }
 
 static enum exit_status read_files(struct resume *r)
 {
-    size_t output_n = 0, side_n = 0;
-    const char *output = map_file(r->file, &output_n), *side = map_file(r->side, &side_n);
-    bool again = false, good = output && side;
-    enum exit_status status = good ? compare_run(r, output, output_n, side, side_n, &again) : EXIT_DONE;
+    struct reader *readers = ceduo_check_memory(malloc(2 * sizeof *readers)), *output = readers, *side = readers + 1;
+    start_reader(output, r->file);
+    start_reader(side, r->side);
+    bool again = false, good = !output->failed && !side->failed;
+    enum exit_status status = good ? compare_run(r, output, side, &again) : EXIT_DONE;
+    again |= output->length == 0;
     if (good && status == EXIT_DONE && !again)
-        good = find_parts(r, output, output_n, side, side_n);
+        good = find_parts(r, output, side);
     else if (good && status == EXIT_DONE)
         good = ftruncate(r->file, 0) == 0 && ftruncate(r->side, 0) == 0 &&
                append(r->side, 0, r->identity.bytes, r->identity.length);
     int reason = errno;
-    unmap_file(output, output_n);
-    unmap_file(side, side_n);
+    free(readers);
     return good ? status : refuse(r->arguments->output, strerror(reason));
 }
 
@@ -383,7 +444,7 @@ static bool is_in_order(const struct resume *r)
 }
 
 /* Write the parts of the output in the order of the rows; adjacent parts in one call. False with errno set. */
-static bool write_parts(const struct resume *r, const char *bytes, int fd)
+static bool write_parts(const struct resume *r, struct reader *reader, int fd)
 {
     bool good = ceduo_file_write_all(fd, r->head->bytes, r->head->length, NULL);
     for (size_t i = 0, n; good && i < r->order_count; i += n) {
@@ -391,7 +452,11 @@ static bool write_parts(const struct resume *r, const char *bytes, int fd)
         size_t length = part->n;
         for (n = 1; i + n < r->order_count && part[n].from == part->from + length; n++)
             length += part[n].n;
-        good = ceduo_file_write_all(fd, bytes + part->from, length, NULL);
+        for (size_t offset = 0, piece; good && offset < length; offset += piece) {
+            const char *bytes = read_at(reader, part->from + offset, 1, &piece);
+            piece = piece < length - offset ? piece : length - offset;
+            good = piece > 0 && ceduo_file_write_all(fd, bytes, piece, NULL);
+        }
     }
     return good;
 }
@@ -400,15 +465,15 @@ static bool write_parts(const struct resume *r, const char *bytes, int fd)
 static bool replace_output(const struct resume *r)
 {
     struct pending_file file = {.path = r->arguments->output, .wait = true};
-    size_t n;
-    const char *bytes = map_file(r->file, &n);
-    int fd = bytes ? ceduo_file_begin(&file) : -1;
+    struct reader *reader = ceduo_check_memory(malloc(sizeof *reader));
+    start_reader(reader, r->file);
+    int fd = reader->failed ? -1 : ceduo_file_begin(&file);
     bool locked = fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) == 0 && fcntl(fd, F_DUPFD_CLOEXEC, 0) >= 0;
-    bool good = locked && write_parts(r, bytes, fd);
+    bool good = locked && write_parts(r, reader, fd);
     if (fd >= 0 && !good)
         close(fd);
     good = good && ceduo_file_finish(&file, fd);
-    unmap_file(bytes, n);
+    free(reader);
     ceduo_file_abort(&file);
     return good;
 }

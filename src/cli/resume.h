@@ -44,6 +44,9 @@ enum exit_status ceduo_resume_add(struct resume *resume, uint64_t key, const str
 /* Close the output. `whole`: all rows were computed; sort the lines by row. */
 enum exit_status ceduo_resume_close(struct resume *resume, bool whole);
 
+/* Return the hash of all that a scene was computed from: version, options, changes and files. */
+uint64_t ceduo_resume_run(const struct arguments *arguments, const struct scene_file *file);
+
 /* Return the hash of the files of a scene. */
 uint64_t ceduo_resume_files(const struct scene_file *file);
 

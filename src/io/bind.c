@@ -85,7 +85,8 @@ const char *ceduo_bind_unknown_key(const struct object *object, const char *key,
     const char *words[KEYS_MAX + 1]; /* + 1: source */
     size_t n = 0;
     for (size_t i = 0; i < object->n && n < KEYS_MAX; i++) /* untaken: large */
-        words[n++] = object->fields[i].key;
+        if (n == 0 || strcmp(words[n - 1], object->fields[i].key) != 0)
+            words[n++] = object->fields[i].key;
     if (object != &source_object) /* every mapping may have a source */
         words[n++] = "source";
     const char *near = ceduo_text_nearest(key, words, n);
@@ -527,10 +528,11 @@ static void bind_map(struct binder *b, const struct object *object, const struct
         } else if (f) {
             size_t before = enter_key(b, entry->key);
             const char *rival = ceduo_schema_alternative(object, f->key);
+            const struct field *list = ceduo_schema_list(object, f);
             if (rival && ceduo_schema_field(object, rival) < f && ceduo_node_get(node, rival))
                 report(b, entry, _("%s already says this; keep one of the two"), rival);
             else
-                bind_field(b, f, entry, item);
+                bind_field(b, list && entry->kind == NODE_LIST ? list : f, entry, item);
             leave_path(b, before);
         } else if (strcmp(entry->key, "source") == 0 && object != &source_object) {
             bind_source(b, entry);

@@ -183,7 +183,7 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
             known->lines[known->more] = place.line;
         known->more++;
     } else if (k < CEDUO_PROBLEMS_MAX || place.first) { /* only listed problems search their line */
-        if (source && place.line > 0)
+        if (source && place.line > 0 && !problems->brief)
             print_line(&hint, source, place.line, place.column);
         const char **const strings[] = {&p.place, &p.path, &p.message, &p.hint};
         p.hint = ceduo_text_string(&hint);

@@ -59,6 +59,7 @@ struct problems {
     size_t met;                         /* errors including repeated ones; unchanged: a step succeeded */
     bool usage;                         /* at least one concerns the command line */
     bool cell;                          /* at least one concerns a cell of --each */
+    bool brief;                         /* record no lines of sources: finding a line takes long in a large table */
     bool memory;                        /* memory ran out: the list may be incomplete */
     struct arena arena;
     struct text known; /* hashes of reported problems */

@@ -370,6 +370,8 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
     memcpy(key, step->p, step->n);
     key[step->n] = '\0';
     const struct field *f = object ? ceduo_schema_field(object, key) : NULL;
+    if (f && step->p[step->n] == '[' && ceduo_schema_list(object, f))
+        f = ceduo_schema_list(object, f);
     bool free_form = !object || strcmp(key, "source") == 0;
     const char *removed = object ? ceduo_removed_hint(key) : NULL;
     if (removed)

@@ -159,7 +159,8 @@ static void walk(struct input_finder *f, const struct object *object, const stru
         node = node || !alias ? node : ceduo_node_get(map, alias->key);
         bool list = field->type == FIELD_LIST, group = field->type == FIELD_GROUP;
         size_t before = f->path.length;
-        if (field->flags & FIELD_OR_NONE)
+        bool is_list = node && node->kind == NODE_LIST ? ceduo_schema_list(object, field) != NULL : false;
+        if (field->flags & FIELD_OR_NONE || is_list) /* the next row describes the list */
             continue;
         ceduo_text_format(&f->path, "%s%s", before > 0 ? "." : "", field->key);
         size_t field_end = f->path.length;

@@ -315,7 +315,9 @@ static bool check_released(const struct entry *e)
 static bool check_values(const struct entry *e)
 {
     const struct observed_values *values = e->values;
-    double last = ceduo_number_max(e->release->x) + e->v->origin;
+    const struct ceduo_scene *scene = &e->v->draft.scene;
+    double last =
+        (e->release == &scene->release ? ceduo_scene_release_last(scene) : ceduo_number_max(e->release->x)) + e->v->origin;
     switch (e->kind_row->location) { /* untaken: table */
     case CEDUO_LOCATION_AT_REST:
         return ceduo_check_on_slope(e->v, e->path, "seen_from_m", values->seen_from) && check_each(e) && check_released(e);

@@ -84,6 +84,35 @@ void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_
                      ROUNDTRIP((first >= 0 ? last : first) + v->origin), ROUNDTRIP(v->origin), ROUNDTRIP(end + v->origin));
 }
 
+/* Shares that differ from 1 by less are rounded: .333 for each of three. */
+#define SHARES_ROUNDING 0.005
+
+void ceduo_validate_releases(struct validator *v)
+{
+    struct ceduo_scene *scene = &v->draft.scene;
+    const struct node *node = ceduo_node_get(v->root, "release");
+    size_t n = scene->releases_count;
+    double shares = 0;
+    if (!node || node->kind != NODE_LIST) {
+        ceduo_validate_release(v, "release", &scene->release);
+        return;
+    }
+    scene->release.x.mean = 0;
+    if (n == 0 && ceduo_is_valid(v, "release"))
+        ceduo_reject(v, "release", "", _("the list is empty"));
+    if (ceduo_is_too_long(v, "release", n))
+        n = scene->releases_count = 0;
+    for (size_t i = 0; i < n; i++) {
+        ceduo_validate_release(v, ceduo_asprintf(v, "release[%zu]", i), &scene->releases[i]);
+        shares += scene->releases[i].share;
+    }
+    if (n == 0 || !ceduo_is_valid_below(v, "release"))
+        return;
+    if (fabs(shares - 1) > SHARES_ROUNDING)
+        ceduo_reject(v, "release", "", _("the shares add up to %s, not to 1; correct them"), ROUNDTRIP(shares));
+    ceduo_scene_average_releases(scene);
+}
+
 /* ---- blocks ---- */
 
 /* Integral of e^(a u) over u from 0 to `length`. */
@@ -204,8 +233,8 @@ void ceduo_validate_controls(struct validator *v)
     }
     if (ceduo_is_too_long(v, path, n) || (!has_list && !(scene->controls = ceduo_alloc(v, n, sizeof *scene->controls))))
         return;
-    bool has_release = v->has_profile && ceduo_is_valid_below(v, "release.x_m");
-    double last = has_release ? ceduo_number_max(scene->release.x) : -INFINITY;
+    bool has_release = v->has_profile && ceduo_is_valid_below(v, ceduo_release_places(v));
+    double last = has_release ? ceduo_scene_release_last(scene) : -INFINITY;
     for (size_t i = 0; i < n; i++) {
         struct ceduo_control *c = &scene->controls[i];
         const char *item = ceduo_asprintf(v, has_list ? "%s[%zu].x_m" : "%s[%zu]", path, i);

@@ -337,7 +337,8 @@ static void assume_tolerance(struct validator *v, double release_x)
 void ceduo_simplify_slope(struct validator *v)
 {
     struct ceduo_slope *s = &v->draft.scene.slope, to;
-    if (!v->has_profile || !s->segments || !ceduo_is_valid_below(v, "slope") || !ceduo_is_valid_below(v, "release.x_m"))
+    if (!v->has_profile || !s->segments || !ceduo_is_valid_below(v, "slope") ||
+        !ceduo_is_valid_below(v, ceduo_release_places(v)))
         return;
     assume_tolerance(v, v->draft.scene.release.x.mean);
     if (ceduo_slope_simplify(s, v->draft.scene.release.x.mean, &to) != CEDUO_OK)

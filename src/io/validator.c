@@ -162,7 +162,7 @@ bool ceduo_validate(struct validator *v)
     ceduo_validate_rock(v, "rock", &scene->rock);
     ceduo_validate_blocks(v);
     ceduo_validate_slope(v);
-    ceduo_validate_release(v, "release", &scene->release);
+    ceduo_validate_releases(v);
     ceduo_simplify_slope(v);
     ceduo_validate_controls(v);
     ceduo_validate_options(v);

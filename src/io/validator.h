@@ -38,8 +38,14 @@ bool ceduo_validate(struct validator *v);
 void ceduo_validate_rock(struct validator *v, const char *path, const struct ceduo_rock_def *def);
 void ceduo_validate_blocks(struct validator *v);
 void ceduo_validate_slope(struct validator *v);
-void ceduo_simplify_slope(struct validator *v); /* requires the release, which stays a vertex */
-double ceduo_validate_end(void *validator);     /* last x of the profile, m, before it is validated; NaN: unknown */
+void ceduo_simplify_slope(struct validator *v);    /* requires the release, which stays a vertex */
+double ceduo_validate_end(void *validator);        /* last x of the profile, m, before it is validated; NaN: unknown */
+void ceduo_validate_releases(struct validator *v); /* all releases of the scene */
+/* Return the path of the places of all releases. */
+static inline const char *ceduo_release_places(const struct validator *v)
+{
+    return v->draft.scene.releases_count > 0 ? "release" : "release.x_m";
+}
 void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_release *release);
 void ceduo_validate_controls(struct validator *v);
 void ceduo_validate_options(struct validator *v);

@@ -243,6 +243,24 @@ static void follow_cylinder(struct follow *f)
         }
 }
 
+/* Scale the other shares of the releases so that all add up to 1. */
+static void follow_share(struct follow *f)
+{
+    const struct ceduo_scene *scene = &f->d->file.scene;
+    double now, remaining = 0;
+    if (strcmp(f->list, "release") != 0 || strcmp(f->key, "share") != 0 || f->index >= scene->releases_count ||
+        ceduo_number_read(f->value, &now) != CEDUO_NUMBER_GOOD || !(now > 0 && now < 1))
+        return;
+    for (size_t i = 0; i < scene->releases_count; i++)
+        remaining += i == f->index ? 0 : scene->releases[i].share;
+    for (size_t i = 0; i < scene->releases_count; i++)
+        if (i != f->index)
+            ceduo_changes_set(&f->changes, ceduo_arena_format(f->arena, "release[%zu].share", i), "%s",
+                              rounded(f, scene->releases[i].share / remaining * (1 - now), 4));
+    if (scene->releases_count > 1)
+        ceduo_text_append(&f->followed, _("the other shares follow, so that all add up to 1"));
+}
+
 /* ---- alternatives ---- */
 
 /* Remove the alternatives of a value: other sizes of the rock, or mass and density. */
@@ -277,6 +295,7 @@ bool ceduo_document_set_and_follow(struct document *d, const char *path, const c
     follow_design(&f);
     follow_fence(&f);
     follow_cylinder(&f);
+    follow_share(&f);
     follow_border(&f);
     follow_stand(&f);
     ceduo_changes_set(&f.changes, path, "%s", value);

@@ -49,20 +49,25 @@ ASKED_AT_ONCE(block_fields);
 
 /* ---- release ---- */
 
-static const struct field release_fields[] = {
-    SPREAD("x_m", .shown = NAMED(N_("x, m")), MEMBER(ceduo_release, x), RANGE("m", -COORDINATE_MAX, COORDINATE_MAX),
-           .flags = FIELD_MEANLESS | FIELD_PLACE,
-           .meaning = N_("where the rock starts; in the slope's coordinates; without it at the first vertex")),
-    SPREAD("height_m", .shown = USUAL(N_("height, m"), 0, 500), MEMBER(ceduo_release, height), RANGE("m", 0, 10000),
-           .value = "0", .meaning = N_("height of its underside above the ground")),
-    SPREAD("vx_m_s", .shown = USUAL(N_("speed along, m/s"), -60, 60), MEMBER(ceduo_release, vx), RANGE("m/s", -1000, 1000),
-           .value = "0", .meaning = N_("horizontal speed, positive downslope along x")),
-    SPREAD("vz_m_s", .shown = USUAL(N_("speed upward, m/s"), -60, 60), MEMBER(ceduo_release, vz), RANGE("m/s", -1000, 1000),
-           .value = "0", .meaning = N_("vertical speed, positive upward")),
-    SPREAD("spin_rad_s", .shown = USUAL(N_("spin, rad/s"), -200, 200), MEMBER(ceduo_release, spin),
-           RANGE("rad/s", -10000, 10000), .value = "0",
-           .meaning = N_("spin, positive rolling forward; not used by the law lumped")),
-};
+#define RELEASE_FIELDS                                                                                                         \
+    SPREAD("x_m", .shown = NAMED(N_("x, m")), MEMBER(ceduo_release, x), RANGE("m", -COORDINATE_MAX, COORDINATE_MAX),           \
+           .flags = FIELD_MEANLESS | FIELD_PLACE,                                                                              \
+           .meaning = N_("where the rock starts; in the slope's coordinates; without it at the first vertex")),                \
+        SPREAD("height_m", .shown = USUAL(N_("height, m"), 0, 500), MEMBER(ceduo_release, height), RANGE("m", 0, 10000),       \
+               .value = "0", .meaning = N_("height of its underside above the ground")),                                       \
+        SPREAD("vx_m_s", .shown = USUAL(N_("speed along, m/s"), -60, 60), MEMBER(ceduo_release, vx),                           \
+               RANGE("m/s", -1000, 1000), .value = "0", .meaning = N_("horizontal speed, positive downslope along x")),        \
+        SPREAD("vz_m_s", .shown = USUAL(N_("speed upward, m/s"), -60, 60), MEMBER(ceduo_release, vz),                          \
+               RANGE("m/s", -1000, 1000), .value = "0", .meaning = N_("vertical speed, positive upward")),                     \
+        SPREAD("spin_rad_s", .shown = USUAL(N_("spin, rad/s"), -200, 200), MEMBER(ceduo_release, spin),                        \
+               RANGE("rad/s", -10000, 10000), .value = "0",                                                                    \
+               .meaning = N_("spin, positive rolling forward; not used by the law lumped"))
+static const struct field release_fields[] = {RELEASE_FIELDS};
+static const struct field shared_release_fields[] = {
+    RELEASE_FIELDS, NUMBER("share", .shown = NAMED(N_("share")), MEMBER(ceduo_release, share), RANGE("", 0, 1),
+                           .flags = FIELD_REQUIRED | FIELD_ABOVE,
+                           .meaning = N_("share of the rocks that start here; the shares of all releases add up to 1"))};
+static const struct object shared_release_object = OBJECT(ceduo_release, shared_release_fields, NULL);
 const struct object ceduo_release_object = OBJECT(ceduo_release, release_fields, NULL);
 
 /* ---- slope ---- */
@@ -515,6 +520,8 @@ static const struct field scene_fields[] = {
                    N_("sizes of the blocks that come down and how many a year; of one class, a mapping instead of the list"),
                    &block_object),
     GROUP("release", N_("release"), MEMBER(scene_draft, scene.release), 0, &ceduo_release_object),
+    ITEMS_LABELLED("release", NAMED(N_("release")), LIST(scene_draft, scene.releases, scene.releases_count), 0,
+                   N_("several releases on one profile, a list instead of the mapping"), &shared_release_object),
     GROUP_LABELLED("slope", NAMED(N_("slope")), MEMBER(scene_draft, scene.slope), REQUIRED | FIELD_FOLLOWS,
                    N_("a file, or what such a file holds"), &slope_object),
     ITEMS("controls", N_("control"), LIST(scene_draft, scene.controls, scene.controls_count), 0, &control_object),

@@ -62,6 +62,56 @@ bool ceduo_option_has_lists(const struct ceduo_option *option)
     return good;
 }
 
+static enum ceduo_status check_release(const struct ceduo_release *r, double end)
+{
+    const struct ceduo_number speeds[] = {r->height, r->vx, r->vz, r->spin};
+    if (!(ceduo_number_min(r->x) >= 0) || !(ceduo_number_max(r->x) < end))
+        return CEDUO_RELEASE_OFF_SLOPE;
+    if (!(ceduo_number_min(r->height) >= 0))
+        return CEDUO_RELEASE_BELOW;
+    for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; i++)
+        if (!(fabs(ceduo_number_min(speeds[i])) < SPEED_MAX) || !(fabs(ceduo_number_max(speeds[i])) < SPEED_MAX))
+            return CEDUO_BAD_NUMBER;
+    return CEDUO_OK;
+}
+
+const struct ceduo_release *ceduo_scene_releases(const struct ceduo_scene *scene, size_t *n)
+{
+    *n = scene->releases_count > 0 ? scene->releases_count : 1;
+    return scene->releases_count > 0 ? scene->releases : &scene->release;
+}
+
+double ceduo_scene_release_last(const struct ceduo_scene *scene)
+{
+    size_t n;
+    const struct ceduo_release *r = ceduo_scene_releases(scene, &n);
+    double last = -INFINITY;
+    for (size_t i = 0; i < n; i++)
+        last = fmax(last, ceduo_number_max(r[i].x));
+    return last;
+}
+
+void ceduo_scene_average_releases(struct ceduo_scene *scene)
+{
+    struct ceduo_release *mean = &scene->release;
+    double shares = 0;
+    if (scene->releases_count == 0)
+        return;
+    *mean = (struct ceduo_release){.share = 1};
+    for (size_t i = 0; i < scene->releases_count; i++) {
+        const struct ceduo_release *r = &scene->releases[i];
+        shares += r->share;
+        mean->x.mean += r->share * r->x.mean;
+        mean->height.mean += r->share * r->height.mean;
+        mean->vx.mean += r->share * r->vx.mean;
+        mean->vz.mean += r->share * r->vz.mean;
+        mean->spin.mean += r->share * r->spin.mean;
+    }
+    struct ceduo_number *const means[] = {&mean->x, &mean->height, &mean->vx, &mean->vz, &mean->spin};
+    for (size_t i = 0; i < sizeof means / sizeof means[0]; i++)
+        means[i]->mean /= shares;
+}
+
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *bad_control)
 {
     if (!scene)
@@ -69,8 +119,8 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *bad
     struct ceduo_rock rock;
     enum ceduo_status status = ceduo_rock_from_means(&scene->rock, &rock);
     /* counted lists exist; ceduo_schema_holds() checks the other lists */
-    bool lists = (scene->blocks || scene->blocks_count == 0) && (scene->controls || scene->controls_count == 0) &&
-                 (scene->options || scene->options_count == 0);
+    bool lists = (scene->blocks || scene->blocks_count == 0) && (scene->releases || scene->releases_count == 0) &&
+                 (scene->controls || scene->controls_count == 0) && (scene->options || scene->options_count == 0);
     for (size_t i = 0; lists && i < scene->options_count; i++)
         lists = scene->options[i].belts || scene->options[i].belts_count == 0;
     if (status == CEDUO_OK && !lists)
@@ -85,16 +135,13 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *bad
     if (status != CEDUO_OK)
         return status;
     double end = scene->slope.x[scene->slope.vertices - 1];
-    double first = ceduo_number_min(scene->release.x), last = ceduo_number_max(scene->release.x);
-    if (!(first >= 0) || !(last < end))
-        return CEDUO_RELEASE_OFF_SLOPE;
-    if (!(ceduo_number_min(scene->release.height) >= 0))
-        return CEDUO_RELEASE_BELOW;
-    const struct ceduo_number *speeds[] = {&scene->release.height, &scene->release.vx, &scene->release.vz,
-                                           &scene->release.spin};
-    for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; i++)
-        if (!(fabs(ceduo_number_min(*speeds[i])) < SPEED_MAX) || !(fabs(ceduo_number_max(*speeds[i])) < SPEED_MAX))
-            return CEDUO_BAD_NUMBER;
+    size_t releases;
+    const struct ceduo_release *release = ceduo_scene_releases(scene, &releases);
+    for (size_t i = 0; i < releases && status == CEDUO_OK; i++)
+        status = scene->releases_count > 0 && !(release[i].share > 0) ? CEDUO_BAD_NUMBER : check_release(&release[i], end);
+    if (status != CEDUO_OK)
+        return status;
+    double last = ceduo_scene_release_last(scene);
     for (size_t i = 0; i < scene->controls_count; i++) {
         if (bad_control)
             *bad_control = i;

@@ -68,14 +68,24 @@ const struct field *ceduo_schema_step(const struct object *object, const struct 
     return NULL;
 }
 
+const struct field *ceduo_schema_list(const struct object *object, const struct field *f)
+{
+    bool is_list = f + 1 < object->fields + object->n && strcmp(f->key, f[1].key) == 0;
+    return is_list ? f + 1 : NULL;
+}
+
 /* Return the row of the first n bytes of a path. *flags: of the row and the enclosing rows. */
 static const struct field *find_row(const char *path, size_t n, unsigned *flags)
 {
     const struct object *object = ceduo_schema_scene();
-    const struct field *f = NULL;
+    const struct field *f = NULL, *list = NULL;
     struct path_step step;
     size_t pos = 0;
     while (ceduo_path_next(path, n, &pos, &step)) {
+        if (step.bracket && list) {
+            f = list;
+            object = NULL;
+        }
         bool item = f && f->type == FIELD_LIST && object == NULL;
         if (item && !step.bracket && f->flags & FIELD_SCALAR_OK) {
             item = false;
@@ -83,9 +93,11 @@ static const struct field *find_row(const char *path, size_t n, unsigned *flags)
         }
         if (step.bracket != item)
             return NULL;
-        f = item ? f : object ? ceduo_schema_step(object, &step) : NULL;
-        if (!f)
+        const struct field *found = item ? f : object ? ceduo_schema_step(object, &step) : NULL;
+        if (!found)
             return NULL;
+        list = item ? NULL : ceduo_schema_list(object, found);
+        f = found;
         *flags |= (unsigned)f->flags;
         object = item || f->type == FIELD_GROUP ? f->object : NULL;
     }

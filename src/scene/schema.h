@@ -157,6 +157,8 @@ const struct object *ceduo_schema_belt(void);
 const struct object *ceduo_schema_stand(void);
 
 const struct field *ceduo_schema_field(const struct object *object, const char *key);
+/* Return the row of a list that a file may give instead of the mapping `field`, under the same key; NULL if none. */
+const struct field *ceduo_schema_list(const struct object *object, const struct field *field);
 /* Return the alternative key of a value, such as per_ha for per_stool; NULL if none. Only one of the two may be given. */
 const char *ceduo_schema_alternative(const struct object *object, const char *key);
 /* Return the row of the same member in another unit; NULL if none. */

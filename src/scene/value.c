@@ -141,6 +141,8 @@ bool ceduo_value_find(struct ceduo_scene *scene, const char *path, struct value 
     struct path_step step;
     while (next(&f, &step)) {
         const struct field *field = ceduo_schema_step(f.object, &step);
+        if (field && f.path[f.pos] == '[' && ceduo_schema_list(f.object, field))
+            field = ceduo_schema_list(f.object, field);
         if (!field || (field->type == FIELD_LIST && !enter_list(&f, field)))
             return false;
         if (field->type == FIELD_GROUP) {

@@ -54,6 +54,7 @@ static bool copy_scene(struct arena *arena, struct ceduo_scene *scene)
         for (size_t k = 0; !arena->failed && k < option->belts_count; k++)
             copy_stand(arena, &option->belts[k].stand);
     }
+    copy_items(arena, &scene->releases, scene->releases_count, sizeof *scene->releases);
     copy_items(arena, &scene->blocks, scene->blocks_count, sizeof *scene->blocks);
     for (size_t i = 0; !arena->failed && i < scene->blocks_count; i++)
         copy_items(arena, &scene->blocks[i].volumes, scene->blocks[i].volumes_count, sizeof(double));
@@ -192,4 +193,5 @@ void ceduo_inputs_set(struct input_scene *copy, const double *u)
         for (size_t k = 0; k < copy->inputs[i].places_count; k++, p++)
             set_value(&p->value, isnan(u[i]) ? p->given : place_value(&copy->inputs[i], k, p, u[i]));
     limit_stools(&copy->scene);
+    ceduo_scene_average_releases(&copy->scene);
 }

@@ -199,6 +199,7 @@ static enum ceduo_status simulate_setting(const struct setting *s, const struct 
     f->scene.rock = s->rock ? *s->rock : scene->rock;
     f->scene.blocks_count = 0; /* an observation is of one rock */
     f->scene.release = s->release ? *s->release : scene->release;
+    f->scene.releases_count = s->release ? 0 : scene->releases_count;
     f->scene.controls_count = s->controls_count;
     f->scene.controls = s->controls;
     if (s->option >= scene->options_count || rocks == 0 || rocks > CEDUO_ROCKS_MAX)

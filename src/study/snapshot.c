@@ -80,7 +80,7 @@ static enum ceduo_status trace(struct ceduo_tracer *follower, uint64_t rock, str
 
 static size_t place_cells(const struct ceduo_scene *scene, double *x)
 {
-    double from = ceduo_number_max(scene->release.x), to = scene->slope.x[scene->slope.vertices - 1];
+    double from = ceduo_scene_release_last(scene), to = scene->slope.x[scene->slope.vertices - 1];
     if (!(to > from))
         return 0;
     for (size_t i = 0; i < CEDUO_SNAPSHOT_CELLS; i++)

@@ -335,7 +335,55 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
     return o;
 }
 
+/* ---- classes ---- */
+
+/* True if every rock without forest rests near the release. */
+static bool hardly_moves(const struct ceduo_result *r)
+{
+    const struct ceduo_ends *ends = &r->bare.ends;
+    return ends->count[CEDUO_AT_REST] == r->bare.rocks && ends->stop_max - ceduo_scene_release_last(r->scene) < CEDUO_MOVES_MIN;
+}
+
+enum ceduo_class ceduo_outcome_classify(const struct ceduo_result *r, const struct ceduo_outcome *o, size_t control,
+                                        const char **why)
+{
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
+    const struct {
+        bool applies;
+        enum ceduo_class class;
+        const char *why;
+    } classes[] = {
+        {o->answer == CEDUO_UNANSWERED, CEDUO_CLASS_NOT_JUDGED, NULL},
+        {o->impossible, CEDUO_CLASS_OPEN, "impossible-stand"},
+        {o->answer == CEDUO_CANNOT_JUDGE && hardly_moves(r), CEDUO_CLASS_NOT_JUDGED, "no-rock-moves"},
+        {o->answer == CEDUO_CANNOT_JUDGE && ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS, CEDUO_CLASS_OPEN,
+         "contradicts-terrain"},
+        {o->answer == CEDUO_CANNOT_JUDGE, CEDUO_CLASS_NOT_REACHED, "not-reached"},
+        {o->answer == CEDUO_NOT_DECIDED, CEDUO_CLASS_OPEN, "sampling-error"},
+        {o->answer == CEDUO_DEPENDS, CEDUO_CLASS_OPEN, "uncertain-inputs"},
+        {o->answer == CEDUO_NO && o->today == CEDUO_YES, CEDUO_CLASS_NO, "exceeds-later"},
+        {o->answer == CEDUO_NO, CEDUO_CLASS_NO, "exceeds"},
+        {ceduo_judge_control(bare, NULL) == CEDUO_YES, CEDUO_CLASS_WITHOUT_FOREST, "without-forest"},
+        {true, CEDUO_CLASS_FOREST, "forest"},
+    };
+    size_t i = 0;
+    while (!classes[i].applies)
+        i++;
+    *why = classes[i].why;
+    return classes[i].class;
+}
+
 /* ---- comparison ---- */
+
+#define YEAR_ROCKS 1000 /* of each year: the error of a share near the limit is 14 of 1000 */
+#define YEARS_MAX  60   /* of a longer window, only some years are simulated */
+
+void ceduo_verdict_add_years(struct ceduo_request *request)
+{
+    request->years = request->years_independent = true;
+    request->year_rocks = YEAR_ROCKS;
+    request->years_max = YEARS_MAX;
+}
 
 enum ceduo_status ceduo_compare_options(const struct ceduo_result *r, struct ceduo_years *const *years,
                                         struct ceduo_years *const *rotations, struct ceduo_verdict *v)

@@ -3,8 +3,7 @@
 #define CEDUO_VERDICT_H
 
 #include "base/arena.h"
-#include "ceduo/result.h"
-#include "ceduo/years.h"
+#include "ceduo/request.h"
 #include "ceduo/yield.h"
 
 /* Comparison of the options at the last control: today, over the same future years, and their yield. The judged share is the
@@ -102,6 +101,24 @@ struct ceduo_outcome {
 struct ceduo_uncertainty_result;
 struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *result, const struct ceduo_verdict *verdict,
                                            const struct ceduo_uncertainty_result *uncertainty, size_t option, size_t control);
+
+/* Add to a request the years of ceduo_scene_window(), by which options are judged, with few rocks each. */
+void ceduo_verdict_add_years(struct ceduo_request *request);
+/* Class of a judgement, for maps: the larger, the worse; the last one is not judged. */
+enum ceduo_class {
+    CEDUO_CLASS_NOT_REACHED,    /* hardly a rock arrives even without forest */
+    CEDUO_CLASS_WITHOUT_FOREST, /* CEDUO_YES, today also without forest */
+    CEDUO_CLASS_FOREST,         /* CEDUO_YES */
+    CEDUO_CLASS_OPEN,
+    CEDUO_CLASS_NO,
+    CEDUO_CLASS_NOT_JUDGED /* no rock moves, or the scene cannot be computed */
+};
+
+#define CEDUO_MOVES_MIN 1.0 /* m from the release; if all rocks stop before, the profile or the release is wrong */
+
+/* Return the class of a judgement, and set *why to its reason in a word. `why` NULL: no answer, and no class. */
+enum ceduo_class ceduo_outcome_classify(const struct ceduo_result *result, const struct ceduo_outcome *outcome, size_t control,
+                                        const char **why);
 
 /* Compare the options of a result, with their years and rotations. `years`, `rotations` and each item of them may be NULL.
  * Return CEDUO_OK, or CEDUO_NO_MEMORY, with nothing to free. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Editing of the field under the cursor, and of list items: belts, controls, segments, cohorts, classes. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -282,6 +283,20 @@ void ceduo_items_add_blocks(struct app *app)
 /* ---- deleting ---- */
 
 /* Delete an item: a segment with a vertex, the last shoots with their stools. A neighbour fills the gap of a ground. */
+/* Scale the shares of releases so that they add up to 1 without one of them. */
+static void scale_shares(struct changes *c, const struct ceduo_release *releases, size_t n, size_t without)
+{
+    double rest = 0;
+    for (size_t i = 0; i < n; i++)
+        rest += i == without ? 0 : releases[i].share;
+    for (size_t i = 0; i < n; i++) {
+        char path[64];
+        snprintf(path, sizeof path, "release[%zu].share", i);
+        if (i != without)
+            ceduo_changes_set(c, path, "%.4g", releases[i].share / rest);
+    }
+}
+
 static bool remove_item(struct app *app, const struct item *item, const char *path)
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);
@@ -294,8 +309,12 @@ static bool remove_item(struct app *app, const struct item *item, const char *pa
         return ceduo_document_remove_vertex(&app->document, index, index - (index > 0 && index >= last));
     if (item->group && list && list->items[index]->n > 1 + !!ceduo_node_get(list->items[index], "name"))
         path = ceduo_app_format(app, "%s.%s", path, item->group);
-    else if ((item->group || strcmp(item->list, "blocks") == 0 || strcmp(item->key, "shoots") == 0) && n == 1)
+    else if ((item->group || strcmp(item->list, "blocks") == 0 || strcmp(item->list, "release") == 0 ||
+              strcmp(item->key, "shoots") == 0) &&
+             n == 1)
         path = item->list;
+    else if (strcmp(item->list, "release") == 0)
+        scale_shares(&c, app->document.file.scene.releases, n, index);
     if (strcmp(item->key, "materials") == 0 && n > 1) {
         const char *end = index == 0 ? "from_m" : "to_m";
         ceduo_changes_set(&c, ceduo_app_format(app, "%s[%zu].%s", item->list, index == 0 ? 1 : index - 1, end), "%.10g",

@@ -136,7 +136,7 @@ static struct form_row *add_item(struct form *form, const char *list, size_t i)
 void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys)
 {
     const struct node *node = ceduo_document_node(form->document, list);
-    const struct field *object_field = ceduo_schema_row(list);
+    const struct field *object_field = ceduo_schema_row(ceduo_arena_format(&form->arena, "%s[0]", list));
     object_field = group ? ceduo_schema_field(object_field->object, group) : object_field;
     struct form_row *head = add_row(form, FORM_COLUMNS_ROW, "");
     list = head->list = ceduo_arena_string(&form->arena, list);

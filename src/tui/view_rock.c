@@ -29,9 +29,14 @@ static void build_rock(struct app *app, struct form *form)
     ceduo_form_fields(form, "rock.", "mass_kg density_kg_m3");
     if (blocks)
         build_blocks(form, blocks);
+    const struct node *release = ceduo_document_node(&app->document, "release");
     ceduo_form_heading(form, _("Release"));
-    ceduo_form_fields(form, "release.", "x_m height_m vx_m_s vz_m_s spin_rad_s");
-    ceduo_form_rest(form, "release");
+    if (release && release->kind == NODE_LIST) {
+        ceduo_form_table(form, "release", NULL, "x_m share height_m vx_m_s vz_m_s spin_rad_s");
+    } else {
+        ceduo_form_fields(form, "release.", "x_m height_m vx_m_s vz_m_s spin_rad_s");
+        ceduo_form_rest(form, "release");
+    }
     ceduo_form_heading(form, _("Simulation"));
     ceduo_form_fields(form, "simulation.",
                       "law contact_model rule threshold_m scale_rn friction_bound gravity_m_s2 seed rocks");

@@ -4,9 +4,11 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/json.h"
 #include "base/language.h"
+#include "scene/schema.h"
 
 static double combine_scale(const struct ceduo_figure *f, double scale)
 {
@@ -210,4 +212,114 @@ static void append_rows(struct text *text, const struct ceduo_csv *csv, const vo
 void ceduo_csv_rows(struct text *text, const struct ceduo_csv *csv, const void *object)
 {
     append_rows(text, csv, object, 0);
+}
+
+/* ---- one figure ---- */
+
+/* A row of a table that is read for an object. */
+struct cell {
+    const struct ceduo_figure *row;
+    const void *object; /* NULL: the object is null */
+    double scale;
+};
+
+static bool find_row(const struct ceduo_figure *f, const void *object, double scale, const struct path_step *step,
+                     struct cell *cell)
+{
+    for (; !ceduo_figure_is_end(f); f++) {
+        if (f->key && ceduo_path_is(step, f->key)) {
+            *cell = (struct cell){f, object, scale};
+            return true;
+        }
+        if (!f->key && find_row(f->table, get_nested(f, object), combine_scale(f, scale), step, cell))
+            return true;
+    }
+    return false;
+}
+
+static bool has_name(const struct ceduo_figure *table, const void *object, const struct path_step *name)
+{
+    static const struct path_step key = {"name", 4, false};
+    struct cell cell;
+    if (!find_row(table, object, 1, &key, &cell) || !cell.row->value)
+        return false;
+    struct ceduo_value v = read_value(cell.row, cell.object, 1);
+    return v.kind == CEDUO_VALUE_TEXT && ceduo_path_is(name, v.text);
+}
+
+/* Return the item of a list that a step in brackets selects; NULL: none. */
+static const void *find_item(const struct cell *list, const struct path_step *step, struct ceduo_place *place)
+{
+    size_t index = SIZE_MAX;
+    bool number = ceduo_path_index(step, &index);
+    const void *item = list->object ? get_item(list->row, list->object, 0, place) : NULL;
+    for (size_t i = 0; item; item = get_item(list->row, list->object, ++i, place))
+        if (number ? i == index : has_name(list->row->table, item, step))
+            break;
+    return item;
+}
+
+static double get_number(const struct cell *cell, const struct ceduo_figure *row)
+{
+    struct ceduo_value v = read_value(row, cell->object, cell->scale);
+    return v.kind == CEDUO_VALUE_NUMBER  ? v.number
+           : v.kind == CEDUO_VALUE_COUNT ? (double)v.count
+           : v.kind == CEDUO_VALUE_FLAG  ? v.flag
+                                         : NAN;
+}
+
+/* True if a row has the key `end`, or one that ends in _`end`. */
+static bool is_end(const struct ceduo_figure *f, const char *end)
+{
+    size_t n = f->key ? strlen(f->key) : 0, m = strlen(end);
+    return f->value && n >= m && strcmp(f->key + n - m, end) == 0 && (n == m || f->key[n - m - 1] == '_');
+}
+
+/* Read a value with its interval: in a table the ends of an interval, or the standard error, follow the value. */
+static enum ceduo_figure_found get_with_interval(const struct cell *cell, double value[3])
+{
+    const struct ceduo_figure *f = cell->row;
+    if (!f->value || f->value->kind == CEDUO_VALUE_TEXT)
+        return CEDUO_NOT_A_NUMBER;
+    value[0] = get_number(cell, f);
+    value[1] = value[2] = NAN;
+    if (is_end(f + 1, "lo") && is_end(f + 2, "hi")) {
+        value[1] = get_number(cell, f + 1);
+        value[2] = get_number(cell, f + 2);
+    } else if (is_end(f + 1, "se")) {
+        double half = CEDUO_Z95 * get_number(cell, f + 1);
+        value[1] = value[0] - half;
+        value[2] = value[0] + half;
+    }
+    return CEDUO_FIGURE_FOUND;
+}
+
+enum ceduo_figure_found ceduo_figures_get(const struct ceduo_figure *figures, const void *object, const char *path,
+                                          double value[3])
+{
+    size_t offset = 0, length = strlen(path), n = 0;
+    struct path_step step;
+    struct ceduo_place places[2]; /* one is read while the other is filled */
+    struct cell cell = {NULL, object, 1};
+    while (ceduo_path_next(path, length, &offset, &step)) {
+        const struct ceduo_figure *row = cell.row;
+        bool list = row && (row->enter || row->item);
+        if (step.bracket != list || (row && !row->table))
+            return CEDUO_NO_FIGURE;
+        figures = row ? row->table : figures;
+        if (list) {
+            cell = (struct cell){.object = find_item(&cell, &step, &places[n]), .scale = row->item ? cell.scale : 1};
+            n = 1 - n;
+            if (!cell.object)
+                return CEDUO_NO_ITEM;
+            continue;
+        }
+        if (row)
+            cell = (struct cell){.object = get_nested(row, cell.object), .scale = combine_scale(row, cell.scale)};
+        if (!find_row(figures, cell.object, cell.scale, &step, &cell))
+            return CEDUO_NO_FIGURE;
+    }
+    if (length == 0 || offset < length)
+        return CEDUO_NO_FIGURE;
+    return cell.row ? get_with_interval(&cell, value) : CEDUO_NOT_A_NUMBER;
 }

@@ -77,6 +77,12 @@ static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)
 /* Append an object as one line of JSON; `details`: with long lists. */
 void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, const void *object, bool details);
 
+/* Find a number by its path in the JSON; an item of a list has its index or its name in brackets. Set the value and the ends of
+ * its 95 % interval, NaN if null or unknown. */
+enum ceduo_figure_found { CEDUO_FIGURE_FOUND, CEDUO_NO_FIGURE, CEDUO_NO_ITEM, CEDUO_NOT_A_NUMBER };
+enum ceduo_figure_found ceduo_figures_get(const struct ceduo_figure *figures, const void *object, const char *path,
+                                          double value[3]);
+
 /* CSV table. Each item of the nested lists is a row; without a list the object is. */
 #define CEDUO_CSV_LEVELS 3
 struct ceduo_csv {
@@ -98,6 +104,15 @@ void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns
  * ceduo_find_report). */
 extern const struct ceduo_figure ceduo_result_figures[], ceduo_find_figures[];
 extern const struct ceduo_figure ceduo_uncertainty_figures[], ceduo_calibration_figures[];
+
+/* A row of --each. */
+struct ceduo_row_state {
+    const char *reason; /* reason of the failure; NULL: it did not fail */
+    const char *run;    /* hash of its input; NULL: not requested */
+};
+/* Columns before those of the result; the answer of a row that failed; its columns that are not empty (object: struct
+ * ceduo_row_state). */
+extern const struct ceduo_figure ceduo_row_figures[], ceduo_failed_figures[], ceduo_failed_columns[];
 
 /* CSV tables. Result: a row per option and control, year or stand; uncertainty: per figure and input; calibration: per
  * value; search: one row. */

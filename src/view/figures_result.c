@@ -100,6 +100,23 @@ OBJECT(get_felling, place, &find_yield(o)->fellings[o->felling])
 OBJECT(get_felled_belt, place, &get_result(o)->scene->options[o->option].belts[find_yield(o)->fellings[o->felling].belt])
 OBJECT(get_rotation, place, o->report->years ? o : NULL)
 OBJECT(get_window, place, find_years_ahead(o))
+/* NULL as find_years_ahead(), or if the forest cannot be judged */
+static const struct ceduo_years_summary *find_summary(const struct ceduo_place *p)
+{
+    const struct ceduo_choice *c = p->year ? NULL : find_years_ahead(p);
+    return c && !c->summaries[p->control].nothing ? &c->summaries[p->control] : NULL;
+}
+
+/* NULL: not computed, or of another place than the last control */
+static const struct ceduo_surface_fit *find_share_range(const struct ceduo_place *p)
+{
+    const struct ceduo_uncertainty_report *u = p->report->uncertainty;
+    bool has = u && u->answer && !p->year && p->control == get_result(p)->last_control;
+    return has ? &ceduo_uncertainty_find_figure(u->answer, p->option, CEDUO_UNCERTAINTY_EXCEED, false)->fit : NULL;
+}
+
+OBJECT(get_summary, place, find_summary(o))
+OBJECT(get_share_range, place, find_share_range(o))
 OBJECT(get_standards, compliance, o->standards_item)
 OBJECT(get_turn, compliance, o->turn_item)
 OBJECT(get_search, find_report, o->search)
@@ -233,6 +250,18 @@ VALUE(failing_energy_years, place, COUNT,
 VALUE(failing_years, place, COUNT, o->sum.nothing ? NO_VALUE : COUNT(*(const size_t *)get_member(f, o)))
 VALUE(judgement_word, place, TEXT, WORD(ceduo_words_judgement(judge(o).answer)))
 VALUE(judgement_today, place, TEXT, WORD(o->year ? NULL : ceduo_words_judgement(judge(o).today)))
+static struct ceduo_value read_class(const struct ceduo_place *p, bool word)
+{
+    const char *why;
+    const struct ceduo_outcome outcome = judge(p);
+    const enum ceduo_class class = ceduo_outcome_classify(get_result(p), &outcome, p->control, &why);
+    return !why ? NO_VALUE : word ? WORD(why) : COUNT(class);
+}
+
+VALUE(verdict_class, place, COUNT, read_class(o, false))
+VALUE(verdict_why, place, TEXT, read_class(o, true))
+VALUE(worst_year, years_summary, COUNT, COUNT(o->worst_year))
+VALUE(worst_exceed, years_summary, NUMBER, NUMBER(isnan(o->exceed.mean) ? NAN : o->worst))
 VALUE(window_lo, choice, NUMBER, NUMBER(fmax(0, o->mean.mean - o->mean.half)))
 VALUE(window_hi, choice, NUMBER, NUMBER(fmin(1, o->mean.mean + o->mean.half)))
 VALUE(window_worst, choice, NUMBER, NUMBER(o->worst.mean))
@@ -635,13 +664,22 @@ static const struct ceduo_figure alternative_energy[] = {
     {"verdict", "", "answer for the control", .table = verdict_of_other},
     END};
 
+#define NO_ANSWER NO_LIMIT ", or contact_model is index"
 static const struct ceduo_figure verdict[] = {
     {"answer", "",
      "whether the forest keeps rocks with more than accepted_kJ to at most 5 of 100 in every year of the window (with blocks: "
      "to one "
      "in accepted_return_y years, in the mean of the window); without a window, today: " ANSWERS,
-     .value = judgement_word, .null = NO_LIMIT ", or contact_model is index"},
+     .value = judgement_word, .null = NO_ANSWER},
     {"today", "", "the same today", .value = judgement_today, .null = NO_LIMIT ", contact_model is index, or of a year"},
+    {"class", "",
+     "the answer as a number: 0 not reached, 1 yes, also without forest, 2 yes, 3 not decided or depends, 4 no, 5 not judged: "
+     "no rock moves, or the row of --each failed",
+     .value = verdict_class, .null = NO_ANSWER},
+    {"why", "",
+     "reason of the class, a word: not-reached; without-forest; forest; sampling-error, uncertain-inputs, impossible-stand, "
+     "contradicts-terrain; exceeds, exceeds-later (not today); no-rock-moves, failed",
+     .value = verdict_why, .null = NO_ANSWER},
     {"because", "", "why, in a sentence", .sentences = report_reason, .single = true},
     END};
 
@@ -939,9 +977,27 @@ static const struct ceduo_figure rest[] = {
     {"warnings", "", "sentences about the run and its stands", .sentences = report_all_warnings},
     END};
 
-static const struct ceduo_figure control_columns[] = {{.table = scene}, {.table = option_row}, {.table = rest}, END};
-static const struct ceduo_figure year_columns[] = {
-    {.table = scene}, {.table = option_row}, {.table = year_rows}, {.table = rest}, END};
+static const struct ceduo_figure worst_year_columns[] = {
+    {"year", "y", "year of the window with the largest share that exceeds, or arrives without accepted_kJ",
+     .value = worst_year},
+    {"exceed", "", "share of the released that exceeds accepted_kJ in that year", .value = worst_exceed, .null = NO_LIMIT},
+    END};
+static const struct ceduo_figure share_range[] = {
+    {"p5", "", "lower end of the 90 % range of wooded.exceed_probability today over uncertain inputs", MEMBER(surface_fit, p5)},
+    {"p95", "", "its upper end", MEMBER(surface_fit, p95)},
+    END};
+static const struct ceduo_figure end_columns[] = {
+    {"worst", "", "", .from = get_summary, .table = worst_year_columns,
+     .null = "no option grows or is cut, contact_model is index, or of a year"},
+    {"uncertainty", "", "", .from = get_share_range, .table = share_range,
+     .null = "--columns does not name it, nothing is uncertain, the control is not the last, or of a year"},
+    VERSION,
+    END};
+
+static const struct ceduo_figure control_columns[] = {
+    {.table = scene}, {.table = option_row}, {.table = rest}, {.table = end_columns}, END};
+static const struct ceduo_figure year_columns[] = {{.table = scene}, {.table = option_row},  {.table = year_rows},
+                                                   {.table = rest},  {.table = end_columns}, END};
 static const struct ceduo_figure stand_csv_columns[] = {
     {.table = scene},          {.table = option_row},
     {.table = stand_columns},  {"rules", "", "", .from = get_rules, .table = rules},

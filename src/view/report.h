@@ -13,7 +13,13 @@
 #include "study/snapshot.h"
 #include "words.h"
 
-enum ceduo_format { CEDUO_TABLE, CEDUO_CSV, CEDUO_JSON };
+enum ceduo_format { CEDUO_TABLE, CEDUO_CSV, CEDUO_JSON, CEDUO_GEOJSON };
+
+/* True for formats with the columns of CSV. */
+static inline bool ceduo_format_has_columns(enum ceduo_format format)
+{
+    return format == CEDUO_CSV || format == CEDUO_GEOJSON;
+}
 
 struct ceduo_page;
 
@@ -296,6 +302,35 @@ size_t ceduo_profiles_sort(struct ceduo_profiles *profiles, size_t *order);
 /* Append the answer for each option and profile. If all profiles have one control, its overall answer comes first. */
 void ceduo_profiles_page(struct ceduo_page *page, const struct ceduo_profiles *profiles);
 void ceduo_profiles_free(struct ceduo_profiles *profiles);
+
+/* A region: lines of one scene, each a row of --each. Initialize with zeros; caller frees. */
+struct ceduo_region {
+    const char *title, *place; /* as in the first line; place NULL: without name */
+    double accepted;
+    size_t options_count;
+    const char **options; /* names; NULL: no line was computed */
+    size_t count, failed, capacity;
+    struct ceduo_region_line *lines;
+    size_t rated; /* lines with a rate, and their sums without forest, 1/y */
+    double bare_reach, bare_exceed;
+    struct arena arena;
+};
+struct ceduo_region_origin {
+    const char *table;
+    uint64_t table_hash, run; /* run: of all scenes */
+    const char *command;
+    size_t chapters; /* number of chapters */
+};
+/* Add a line; one that failed, with its reason. `scene`: number for the caller. */
+void ceduo_region_add(struct ceduo_region *region, const struct ceduo_report *report, const char *name, size_t scene);
+void ceduo_region_add_failed(struct ceduo_region *region, const char *name, size_t scene, const char *reason);
+/* Sort the worst first and the failed last. Return the number of lines that did not fail. */
+size_t ceduo_region_sort(struct ceduo_region *region);
+/* Return the scene of line i, and set its name. */
+size_t ceduo_region_scene(const struct ceduo_region *region, size_t i, const char **name);
+/* Append the page of a sorted region. */
+void ceduo_region_page(struct ceduo_page *page, const struct ceduo_region *region, const struct ceduo_region_origin *origin);
+void ceduo_region_free(struct ceduo_region *region);
 
 /* Result of a search. */
 struct ceduo_find_report {

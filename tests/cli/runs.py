@@ -47,7 +47,7 @@ TOPOGRAPHY = {"reach_angle_deg": NUMBER, "shadow_angle_deg": MAYBE}
 CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "fence": FENCE, "topography": TOPOGRAPHY,
            "bare": ARRIVALS, "index": INDEX, "wooded": WOODED, "other_energy": OTHER, "design": DESIGN,
            "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT, "contact_8cm": LIGHT, "free_run_8cm": LIGHT},
-           "verdict": {"answer": TEXT_OR_NULL, "today": TEXT_OR_NULL, "because": TEXT}}
+           "verdict": {"answer": TEXT_OR_NULL, "today": TEXT_OR_NULL, "class": MAYBE, "why": TEXT_OR_NULL, "because": TEXT}}
 RULES = ("region", "standards_per_ha", "standards_least", "standards_most", "standards_met", "standards_article", "standards_year",
          "turn_y", "turn_least", "turn_most", "turn_met", "turn_article", "turn_year")
 RULED = {k: TEXT_OR_NULL if k == "region" or k.endswith("article") else FLAG_OR_NULL if k.endswith("met") else MAYBE

@@ -66,7 +66,7 @@ def test_bad_rows():
     with Folder() as f:
         valley(f, "name,slope,controls[0].accepted_kJ\na,100.csv,20\nb,none.csv,20\nc,110.csv,x\nd,110.csv,20,9\ne,120.csv\nf,120.csv,\n")
         r = run(f, "-f", "csv", "--columns", "row.name")
-        expect_equal((r.status, r.out), (INPUT, "row.name\na\nf\n"), str(r))
+        expect_equal((r.status, r.out), (INPUT, "row.name\na\nb\nc\nd\ne\nf\n"), str(r))
         for words in ("rows.csv:3: ", "none.csv", "rows.csv:4: ", "'x' is not a number", "rows.csv:5:14: more columns",
                       "rows.csv:6:3: too few columns: 2, the head has 3", "4 of 6 failed: ",
                       "rows.csv:3 (b), rows.csv:4 (c), rows.csv:5 (d), rows.csv:6 (e)"):
@@ -83,6 +83,131 @@ def test_bad_rows():
             expect_equal((r.status, r.out), (INPUT, ""), str(r))
             expect_in(words, r.err)
         expect_equal(ceduo("--check", "--each", "rows.csv", "-", cwd=f.path).status, USAGE)
+
+
+def test_failed_rows():
+    """A failed row has a line, too: status, reason in English, class 5; in JSON an object of its own format"""
+    reasons = {"a": "", "b": "csv: cannot find 'none.csv' next to this file or among the profiles (ceduo --list-profiles)",
+               "c": "controls[0].accepted_kJ: 'x' is not a number", "d": "more columns than the first line has: 4 instead of 3; if commas "
+               "stand for decimals, separate the columns by semicolons", "e": "too few columns: 2, the head has 3"}
+    columns = ["name", "status", "reason", "verdict.class", "verdict.why", "version", "option", "x_m"]
+    with Folder() as f:
+        valley(f, "name,slope,controls[0].accepted_kJ\na,100.csv,20\nb,none.csv,20\nc,110.csv,x\nd,110.csv,20,9\ne,120.csv\n")
+        for words in ([], ["--language", "it"]):
+            r = run(f, "-f", "csv", "--columns", ",".join(columns).replace("name", "row.name"), *words)
+            rows = table(r.out)
+            expect_equal({row["row.name"]: row["reason"] for row in rows}, reasons)
+        expect_equal([row["status"] for row in rows], ["ok"] + 4 * ["failed"])
+        for row in rows[1:]:
+            expect_equal((row["verdict.class"], row["verdict.why"], row["version"], row["option"]), ("5", "failed", rows[0]["version"], ""))
+        expect_equal([row["status"] for row in table(run(f, "-f", "csv").out)], [row["status"] for row in rows], "without --columns")
+        answers = run(f, "-f", "json").json()
+        expect_equal([a["format"] for a in answers], ["ceduo-result-1"] + 4 * ["ceduo-failed-1"])
+        expect_equal({a["row"]["name"]: a["reason"] for a in answers[1:]}, {k: v for k, v in reasons.items() if v})
+        f.write("rows.csv", "name,rock.diameter_m\na,x\n")
+        r = run(f, "-f", "csv", "-o", "new.csv", "--columns", "row.name,status")
+        expect_equal((r.status, (f.path / "new.csv").read_text()), (INPUT, "row.name,status\na,failed\n"), "all failed")
+
+
+def test_key():
+    """--key names a row in messages; only this copied column is printed; an empty or repeated key fails the row"""
+    with Folder() as f:
+        valley(f, "wkt,id,slope,note\nPOINT(0 0),12e3,100.csv,x\nPOINT(0 1),7,none.csv,y\nPOINT(0 2),,110.csv,z\nPOINT(0 3),12e3,110.csv,z\n")
+        r = run(f, "-f", "csv", "--key", "id")
+        rows = table(r.out)
+        expect_equal([row["id"] for row in rows], ["12e3", "7", "", "12e3"])
+        expect_equal([row["status"] for row in rows], ["ok", "failed", "failed", "failed"])
+        expect("wkt" not in rows[0] and "note" not in rows[0], list(rows[0]))
+        for words in ("rows.csv:3 (7): ", "rows.csv:4:12: the key 'id' is empty", "rows.csv:5:1: the key '12e3' is also that of line 2",
+                      "3 of 4 failed: rows.csv:3 (7), rows.csv:4, rows.csv:5 (12e3)"):
+            expect_in(words, r.err)
+        expect_equal(run(f, "-f", "csv", "--key", "id", "--columns", "note,id").out.splitlines()[:2], ["note,id", "x,12e3"])
+        expect_equal([a["row"] for a in run(f, "-f", "json", "--key", "id").json()], [{"id": "12e3"}, {"id": 7}, {"id": None}, {"id": "12e3"}])
+        expect_equal(table(run(f, "-f", "csv", "--key", "slope", "--columns", "slope,status").out)[0], {"slope": "100.csv", "status": "ok"})
+        r = run(f, "-f", "csv", "--key", "ident")
+        expect_equal((r.status, r.out), (INPUT, ""), str(r))
+        expect_in("no column 'ident' for --key; the columns are: wkt, id, slope, note", r.err)
+        expect_in("--key requires --each", ceduo("-b", "--key", "id", "s.yaml", cwd=f.path).err)
+
+
+def test_renamed_columns():
+    """--columns NAME=PATH renames a column; two columns of one name, and an empty name, are refused"""
+    with Folder() as f:
+        valley(f, "name,slope\na,100.csv\n")
+        expect_equal(run(f, "-f", "csv", "--columns", "place=x_m,x_m,id=row.name").out, "place,x_m,id\n40,40,a\n")
+        for columns, words in (("x_m,x_m", "two columns are called 'x_m'"), ("a=x_m,a=option", "two columns are called 'a'"),
+                               ("=x_m", "'=x_m' has no name"), ("a=x", "no column 'x'")):
+            r = run(f, "-f", "csv", "--columns", columns)
+            expect_equal((r.status, r.out), (USAGE, ""), str(r))
+            expect_in(words, r.err)
+
+
+CLASSES = """what,controls[0].accepted_kJ,controls[0].x_m,release,forest[0].stand.stools.per_ha,forest[0].stand.shoots[0].per_ha,slope
+exceeds,,,,,,
+without-forest,9000,,,,,
+forest,180,,,,,
+impossible-stand,,,,,40000,
+no-rock-moves,,,"{x_m: 0, vx_m_s: 0, vz_m_s: 0}",,,"{vertices_m: [[0, 50], [20, 51], [100, 0]], segments: SEGMENTS}"
+not-reached,,190,,,,"{vertices_m: [[0, 50], [20, 40], [200, 40]], segments: SEGMENTS}"
+contradicts-terrain,,70,,,,"{vertices_m: [[0, 90], [70, 30], [120, 0]], segments: [{rn: .05, rt: .05, friction: 1, roughness_rad: .2}]}"
+failed,,,,9000,,
+"""
+
+
+def test_classes():
+    """verdict.class is a number and verdict.why a word: where the ground holds the rocks is not where none moves"""
+    wanted = {"exceeds": ("no", "4"), "without-forest": ("yes", "1"), "forest": ("yes", "2"), "impossible-stand": ("nothing", "3"), "no-rock-moves": ("nothing", "5"),
+              "not-reached": ("nothing", "0"), "contradicts-terrain": ("nothing", "3"), "failed": ("", "5")}
+    with Folder() as f:
+        valley(f, CLASSES.replace("SEGMENTS", "[{rn: .3, rt: .8, roughness_rad: .1, friction: .5}]"))
+        words = ["-b", "-q", "-n", 1000, "-f", "csv", "--each", "rows.csv"]
+        names = "what,verdict.answer,verdict.class,verdict.why,bare.exceed_probability,wooded.exceed_probability"
+        r = ceduo(*words, "--columns", names, "s.yaml", cwd=f.path)
+        rows = {row["what"]: row for row in table(r.out)}
+        expect_equal({what: (row["verdict.answer"], row["verdict.class"]) for what, row in rows.items()}, wanted, str(r))
+        expect_equal([row["verdict.why"] for row in rows.values()], list(wanted))
+        expect(float(rows["forest"]["bare.exceed_probability"]) > 0.05 > float(rows["forest"]["wooded.exceed_probability"]), rows["forest"])
+        f.write("rows.csv", "id,controls[0].accepted_kJ,simulation.contact_model\nno limit,.,\nindex,20,index\n")
+        f.write("s.yaml", wooded_scene(controls=[{"x_m": 60}]))
+        rows = table(run(f, "-f", "csv", "--columns", "id,verdict.class,verdict.why").out)
+        expect_equal([tuple(row.values()) for row in rows], [("no limit", "", ""), ("index", "", "")])
+
+
+def test_added_columns():
+    """worst.* are those of the window, uncertainty.* are computed only if --columns names them"""
+    names = "option,worst.year,worst.exceed,uncertainty.p5,uncertainty.p95,version,wooded.exceed_probability,verdict.answer,verdict.class"
+    words = ["-b", "-n", 100, "--option", "selection coppice", "--option", "simple coppice, just cut"]
+    rows = table(good(*words, "-f", "csv", "--columns", names, "four-systems").out)
+    answer = good(*words, "-f", "json", "four-systems").json()[0]
+    for row, option in zip(rows, answer["options"]):
+        expect_equal((row["option"], int(row["worst.year"]), float(row["worst.exceed"]), row["version"]),
+                     (option["name"], option["window"]["worst_year"], option["window"]["worst"], answer["version"]))
+        lo, hi, share = (float(row[k]) for k in ("uncertainty.p5", "uncertainty.p95", "wooded.exceed_probability"))
+        expect(0 <= lo <= share <= hi <= 1, row)
+    plain = table(good(*words, "-f", "csv", "four-systems").out)
+    expect_equal({row["uncertainty.p5"] for row in plain}, {""})
+
+
+def test_run():
+    """The column run changes with all that changes figures, and with nothing else"""
+    with Folder() as f:
+        valley(f, "id,slope,rock.diameter_m\na,100.csv,1\nb,100.csv,1\nc,110.csv,1\nd,100.csv,1.1\ne,none.csv,1\n")
+
+        def runs(*words, rocks=60):
+            r = ceduo("-b", "-q", "-n", rocks, "-f", "csv", "--each", "rows.csv", "--columns", "run", *words, "s.yaml", cwd=f.path)
+            return r.out.splitlines()[1:]
+        first = runs()
+        expect_equal((len(first), len(set(first)), first[0]), (5, 4, first[1]))
+        expect_equal({len(run) for run in first}, {16})
+        for words in (["-j", "1"], ["--language", "it"]):
+            expect_equal(runs(*words), first)
+        for words in (["--seed", "7"], ["-s", "release.vx_m_s=1"], ["--option", "current"], ["--years"]):
+            expect(not set(runs(*words)) & set(first), words)
+        expect(not set(runs(rocks=61)) & set(first), "rocks")
+        f.write("100.csv", profile(101))
+        expect_equal([a == b for a, b in zip(runs(), first)], [False, False, True, False, True])
+        f.write("s.yaml", (f.path / "s.yaml").read_text() + "\n")
+        expect(not set(runs()) & set(first), "the scene")
 
 
 def test_messages():
@@ -147,7 +272,7 @@ def test_quotes():
             expect_rows(f, text, [({"id": "a", "note": notes[0]}, two), ({"id": "b", "note": notes[1]}, one)])
         f.write("rows.csv", 'id,note,rock.diameter_m\na,"one\ntwo",2\nb,"\n\n",x\nc,,\nd,"x"y,1\ne,"open,1\n')
         r = run(f, "-f", "csv", "--columns", "id")
-        expect_equal((r.status, r.out), (INPUT, "id\na\nc\n"), str(r))
+        expect_equal((r.status, r.out), (INPUT, "id\na\nb\nc\nd\ne\n"), str(r))
         for words in ("rows.csv:4: rock.diameter_m: 'x' is not", "rows.csv:8:6: text after a closing quote", "rows.csv:9:3: this quote is not closed",
                       "3 of 5 failed"):
             expect_in(words, r.err)
@@ -243,12 +368,13 @@ def test_numbers():
                              ('id|slope|title\na|{csv: 110.csv}|{x}\nb|120.csv|it\'s: #1\n',
                               [["slope={csv: 110.csv}", "title='{x}'"], ["slope=120.csv", "title='it''s: #1'"]])):
             expect_rows(f, text, [({"id": "abc"[i]}, sets) for i, sets in enumerate(wanted)])
-        for text, words, left in (("id;rock.density_kg_m3\na;2.600\nb;2600\n", "rows.csv:2:3: '2.600' can be read in two ways", "id\nb\n"),
-                                  ("id;rock.density_kg_m3\na;2600,5\nb;1800.5\n", "rows.csv:3:3: the decimal sign of '1800.5'", "id\na\n"),
-                                  ("id,rock.density_kg_m3\na,2600\nb,26 00\n", "rows.csv:3:3: '26 00': two numbers", "id\na\n")):
+        for text, words, good_row in (("id;rock.density_kg_m3\na;2.600\nb;2600\n", "rows.csv:2:3: '2.600' can be read in two ways", "b"),
+                                      ("id;rock.density_kg_m3\na;2600,5\nb;1800.5\n", "rows.csv:3:3: the decimal sign of '1800.5'", "a"),
+                                      ("id,rock.density_kg_m3\na,2600\nb,26 00\n", "rows.csv:3:3: '26 00': two numbers", "a")):
             f.write("rows.csv", text)
-            r = run(f, "-f", "csv", "--columns", "id")
-            expect_equal((r.status, r.out), (INPUT, left), str(r))
+            r = run(f, "-f", "csv", "--columns", "id,status")
+            states = "".join(f"{row},{'ok' if row == good_row else 'failed'}\n" for row in "ab")
+            expect_equal((r.status, r.out), (INPUT, "id,status\n" + states), str(r))
             expect_in(words, r.err)
 
 
@@ -286,7 +412,7 @@ def test_large_tables():
             status, out, err = limited(f, most, *words, "--each", "rows.csv")
             expect_equal(status, DONE if FULL else INPUT, err)
             out = out or (f.path / words[words.index("-o") + 1]).read_text()
-            expect_equal(len(out.splitlines()), good_rows + ("csv" in words))
+            expect_equal(len(out.splitlines()), rows + ("csv" in words))
             expect(FULL or f"{rows - good_rows} of {rows} failed: " in err, err)
 
 

@@ -14,14 +14,14 @@ BUILD = ROOT / os.environ.get("BUILD", "build/release")
 
 # Each room depends on itself and those named; base on nothing.
 KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene core", "io": "base scene core study",
-         "view": "base scene core study io", "model": "base scene core study io",
+         "view": "base scene core study io", "api": "base scene core study io view", "model": "base scene core study io",
          "tui": "base scene core study io view model", "cli": "base scene core study io view model tui"}
 # The folders of core likewise.
 CORE = {"stand": "", "forest": "stand", "walk": "stand forest", "runs": "stand forest walk"}
 # Room of each public header; a header can include whatever its room can.
 HEADERS = {"base": "flag", "scene": "rock scene slope stand status",
            "core": "adc alternative_law assess blocks fence hazard key pool record request result rotation run statistics trajectory variants years yield",
-           "study": "calibrate uncertainty find naslund observe surface survey", "io": "ceduo read"}
+           "study": "calibrate uncertainty find naslund observe surface survey", "io": "read", "api": "ceduo handle"}
 SCIENCE = ("scene", "core")  # uses nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
 # A rock is the same on every machine: code that decides its trajectory, or a year's stand, uses only functions

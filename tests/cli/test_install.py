@@ -54,7 +54,7 @@ def test_install():
                 "share/man/it/man1/ceduo.1", "share/man/it/man7/ceduo-workflows.7", "lib/libceduo.a", "lib/libceduo.so", "lib/libceduo.so.0", "lib/pkgconfig/ceduo.pc", "include/ceduo/ceduo.h"} <= names, names)
         shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").rglob("*.[1357]")]
         shipped += [*(ROOT / "profiles/jobs").iterdir(), *(ROOT / "profiles/surveys").iterdir(), *(ROOT / "profiles/observed").iterdir(),
-                    *(ROOT / "include/ceduo").glob("*.h"), *(ROOT / "src/po").glob("*.po")]
+                    *(ROOT / "include/ceduo").glob("*.h"), *(ROOT / "src/po").glob("*.po"), *(ROOT / "man/examples").iterdir()]
         expect_equal(len(names), len(shipped) + 12, "files installed")  # with libraries, Italian pages and completions
         for name in names:
             expect_equal(oct((place.prefix / name).stat().st_mode & 0o777), "0o755" if name == "bin/ceduo" else "0o644", name)

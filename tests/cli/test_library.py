@@ -9,7 +9,7 @@ import shlex
 import shutil
 import subprocess
 
-from harness import ROOT, Folder, Skip, ceduo, environment, expect, expect_equal, run_all
+from harness import FULL, ROOT, Folder, Skip, ceduo, environment, expect, expect_equal, expect_near, run_all
 from test_install import VARIANT, make
 from test_workflows import RUN, render_literal
 
@@ -127,6 +127,51 @@ def test_cpp():
             place.shell(f"g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror {how.replace('--', '-')} {BUILT} -o ask ask.cc "
                         f"$(pkg-config {how} --cflags --libs ceduo)")
             expect_equal(place.shell("./ask"), "done\ncancelled\n" + known + wanted.err, "statuses, what is not known, messages")
+
+
+PYTHON = """
+import ceduo
+with ceduo.Scene("paper-site") as scene:
+    scene.simulate(200)
+    print(*scene.get("options[0].controls[0].wooded.reach_probability"), len(scene.samples("energy_kJ")))
+"""
+R = """source("ceduo.R")
+scene <- ceduo_open("paper-site")
+ceduo_simulate(scene, 200)
+cat(format(ceduo_get(scene, "options[0].controls[0].wooded.reach_probability"), digits = 15), length(ceduo_samples(scene, "energy_kJ")))
+ceduo_close(scene)
+failed <- try(ceduo_get(scene, "rock.diameter_m"), silent = TRUE)
+cat("", inherits(failed, "try-error"), "\\n")
+ceduo_example()
+"""
+
+
+def test_python():
+    """The module for Python reads a scene with the installed library"""
+    if BUILT:
+        raise Skip("the runtime of the sanitizers would have to come first")
+    with Library() as place:
+        share = ceduo("--batch", "-f", "json", "-n", 200, "paper-site").json()[0]["options"][0]["controls"][0]["wooded"]
+        place.write("ask.py", PYTHON)
+        words = place.shell(f"PYTHONPATH={shlex.quote(place.root)}/share/ceduo/examples python3 ask.py").split()
+        expect_equal([float(w) for w in words], [*(share[k] for k in ("reach_probability", "reach_lo", "reach_hi")), 200.0])
+
+
+def test_r():
+    """The shim for R builds without a warning; R reads the same figures, sees an error, and draws the example"""
+    if BUILT or not FULL or not shutil.which("R"):
+        raise Skip("in make check-all, and with R")
+    with Library() as place:
+        share = ceduo("--batch", "-f", "json", "-n", 200, "paper-site").json()[0]["options"][0]["controls"][0]["wooded"]
+        place.write("ask.R", R.replace("\\\\n", "\\n"))
+        place.shell(f"cp {shlex.quote(place.root)}/share/ceduo/examples/* .\n"
+                    "export PKG_CPPFLAGS=\"$(pkg-config --cflags ceduo)\" PKG_LIBS=\"$(pkg-config --libs ceduo)\"\n"
+                    "R CMD SHLIB ceduo_r.c")
+        words = place.shell("Rscript ask.R").split()
+        for word, key in zip(words, ("reach_probability", "reach_lo", "reach_hi")):
+            expect_near(float(word), share[key], 1e-14, key)
+        expect_equal(words[3:], ["200", "TRUE"], "samples, an error")
+        expect((place.path / "standards.pdf").stat().st_size > 2000, "the example's picture")
 
 
 def test_exports():

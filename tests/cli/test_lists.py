@@ -50,14 +50,14 @@ def test_list_columns():
         head = good("-b", "-f", "csv", "-n", 1, *words, PAPER).out.split("\n")[0].split(",")
         rows = [re.split("  +", line) for line in good("--list-columns", *(words[:1] if "--years" in words else words)).out.splitlines()]
         expect_equal(rows[0], ["column", "type", "unit", "empty if", "meaning"])
-        expect_equal([row[0] for row in rows[1:]], head, words)
+        expect_equal([row[0] for row in rows[1:]], ["status", "reason", "run", *head], "the first three are of --each")
         for row in rows[1:]:
             expect(row[1] in ("number", "integer", "boolean", "string") and row[-1], row)
 
 
 def test_schema():
     """--schema: a JSON Schema of each output, which accepts answers and refuses a wrong one; --each extends it"""
-    for name in ("result", "find", "sensitivity", "calibration"):
+    for name in ("result", "find", "sensitivity", "calibration", "failed"):
         schema = json.loads(good("--schema", name).out)
         validator().check_schema(schema)
         expect_equal((schema["$schema"], schema["$id"]), ("https://json-schema.org/draft/2020-12/schema", f"urn:ceduo-{name}-1"))
@@ -99,6 +99,7 @@ def test_bounds_are_listed():
         materials = f.write("m.yaml", scene(slope={"vertices_m": [[0, 64], [100, 0]],
                                                    "materials": [{"from_m": 0, "to_m": 100, "material": "talus"}]}))
         sized = f.write("b.yaml", scene(blocks=[{"per_year": 1, "volume_m3": [0.1, 1]}]))
+        releases = f.write("r.yaml", scene(release=[{"share": 1}]))
         places = f.write("p.yaml", {key: value for key, value in mapping.items() if key != "controls"} | {"controls_m": [50]})
         for name, kind, unit, text, *_ in lines:
             # bounds of a range equal those of its value; test_observed.py tests observations
@@ -112,7 +113,7 @@ def test_bounds_are_listed():
                 for value in (sign * 1e17,) if bound is None else (bound + sign * max(abs(bound) * 1e-3, 1), sign * 1e17):
                     change = name.replace("[]", "[0]") + "=" + forms[kind].format(value)
                     done = ceduo("--check", "-s", change, materials if "materials" in name else sized if "blocks" in name else
-                                 places if name.startswith("controls_m") else path)
+                                 releases if name.startswith("release[]") else places if name.startswith("controls_m") else path)
                     found = re.search(rf"({words}) ([-+.0-9e]+)(?: (\S+))?$", done.err, re.M)
                     expect(bool(found) == (bound is not None), f"{change}; shown: {text}", done)
                     if found:

@@ -11,9 +11,9 @@ from harness import INPUT, ROOT, USAGE, Folder, ceduo, expect, expect_equal, run
 # value of each option, then the options that it requires
 VALUES = {"format": "csv", "output": "out.csv", "set": "rock.diameter_m=1", "rocks": "10", "tolerance": "0.1", "rows": "controls",
           "each": "none.csv", "columns": "scene", "seed": "1", "threads": "1", "option": "a", "charset": "ascii", "language": "en",
-          "size": "80x24", "sure": "0.9", "script": "none.txt", "find": "rock.diameter_m=1:2", "goal": "adc", "report": "page.html",
+          "size": "80x24", "sure": "0.9", "script": "none.txt", "find": "rock.diameter_m=1:2", "goal": "adc", "report": "page.html", "key": "a", "chapters": "1",
           "calibrate": "rock.diameter_m=1:2", "plot": "rotation", "survey": "none.csv", "schema": "result"}
-NEEDS = {"rows": ["--format=csv"], "columns": ["--format=csv"], "resume": ["--format=csv", "--each=none.csv", "--output=out.csv"]}
+NEEDS = {"key": ["--each=none.csv"], "chapters": ["--each=none.csv"], "rows": ["--format=csv"], "columns": ["--format=csv"], "resume": ["--format=csv", "--each=none.csv", "--output=out.csv"]}
 MODES = ("batch", "find", "goal", "calibrate", "sensitivity", "report", "plot", "check", "survey", "list-parameters",
          "list-profiles", "list-columns", "schema", "help", "version")
 

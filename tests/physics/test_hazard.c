@@ -23,7 +23,7 @@ static struct ceduo_scene make_scene(struct ceduo_size_class *classes, size_t n)
     return scene;
 }
 
-/* Return the blocks per year of a class rate_above volume v. */
+/* Return the blocks per year of a class above volume v. */
 static double rate_above(const struct ceduo_size_class *c, double v)
 {
     double lo = c->volumes[0], hi = c->volumes[1], b = c->exponent;
@@ -32,7 +32,7 @@ static double rate_above(const struct ceduo_size_class *c, double v)
     return c->per_year * share;
 }
 
-/* Weights sum to the frequency of blocks rate_above any volume; volumes have evenly spaced logarithms. */
+/* Weights sum to the frequency of blocks above any volume; volumes have evenly spaced logarithms. */
 TEST(weights_sum_to_the_frequency_of_blocks)
 {
     struct ceduo_size_class classes[] = {{3, 1.1, 2, first}, {0.05, 0, 2, second}};
@@ -215,7 +215,7 @@ TEST(quantiles_by_hand)
     EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a share that is reached exactly is its last value */
     ROWS(EXPECT_NEAR, (ceduo_weighted_quantile(values, 3, 0.26), 2, 0), (ceduo_weighted_quantile(values, 3, 0.75), 2, 0),
          (ceduo_weighted_quantile(values, 3, 0.76), 3, 0));
-    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* rate_above all values */
+    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* above all values */
     assert_true(isnan(ceduo_weighted_quantile(values, 0, 0.5)));
     const struct weight_totals all = {.n = 3, .w = 4, .ww = 6, .per_year = 1};
     struct weighted one = {5, 1};
@@ -253,10 +253,9 @@ TEST(few_rocks_give_bounds)
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
         EXPECT_NEAR(h.intensity[i].rate.mean, 0.0005, 1e-15);
     assert_true(isnan(h.returns[3].energy.mean) &&
-                isnan(h.returns[3].energy.lo)); /* 0.0015 a year: less than one in 300 years */
-    EXPECT_NEAR(h.returns[3].energy.hi, 1e5,
-                0); /* 1/150 of the blocks: Wilson's bound of one in N is rate_above, of two below */
-    assert_true(isnan(h.returns[1].energy.hi)); /* one in 30 years exceeds the upper bound of all three */
+                isnan(h.returns[3].energy.lo));  /* 0.0015 a year: less than one in 300 years */
+    EXPECT_NEAR(h.returns[3].energy.hi, 1e5, 0); /* 1/150 of the blocks: Wilson's bound of one in N is above, of two below */
+    assert_true(isnan(h.returns[1].energy.hi));  /* one in 30 years exceeds the upper bound of all three */
     assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h, NULL));
     assert_true(isnan(h.accepted.mean));
     EXPECT_NEAR(ceduo_hazard_judged_rate(&h).mean, 0.0015, 1e-15);

@@ -8,7 +8,7 @@
 static const char *const scenes[] = {"tests/unit/every_key/cylinder.yaml", "tests/unit/every_key/options.yaml",
                                      "tests/unit/every_key/grounds.yaml",  "tests/unit/every_key/profile.yaml",
                                      "tests/unit/every_key/block.yaml",    "tests/unit/every_key/low.yaml",
-                                     "tests/unit/every_key/blocks.yaml"};
+                                     "tests/unit/every_key/blocks.yaml",   "tests/unit/every_key/releases.yaml"};
 
 /* Write the path of a parameter in the first item of each list; `point`: its index in a list of points. */
 static inline void first_place(const char *path, const struct field *f, const char *point, struct text *to)

@@ -94,7 +94,7 @@ TEST(a_rock_without_end)
     slope->segments[0] = (struct ceduo_segment){ceduo_number(1), ceduo_number(1), NAN, 0, .5, .6};
     site.control.x = slope->x[1];
     site.scene.release =
-        (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
+        (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0), false, 0};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     LOCAL(ceduo_run, run) = make_run(&def, 1);
     struct ceduo_arrivals a;
@@ -258,7 +258,7 @@ static struct ceduo_run *held_rocks(void)
     site.scene.simulation.rocks = 300;
     site.scene.slope.segments[0].friction = 9;
     site.scene.release =
-        (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
+        (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0), ceduo_number(0), false, 0};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.threads = 0; /* means 1 */
     return make_run(&def, 300);

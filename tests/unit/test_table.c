@@ -82,6 +82,7 @@ static void expect_whole(const char *name, const struct object *object, bool *is
         DERIVED(slope, ceduo_slope, points_x),
         DERIVED(slope, ceduo_slope, points_z),
         DERIVED(ceduo_schema_field(scene, "release")->object, ceduo_release, x_assumed),
+        DERIVED(ceduo_schema_field(scene, "release")->object, ceduo_release, share), /* exists in a list */
         DERIVED(ceduo_schema_stand(), ceduo_stand, counted_from),
         DERIVED(ceduo_schema_field(ceduo_schema_stand(), "trees")->object, ceduo_stems, per_stool), /* exists for shoots */
         DERIVED(belt, ceduo_belt, name),

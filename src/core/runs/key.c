@@ -74,7 +74,8 @@ uint64_t ceduo_scene_key(const struct ceduo_scene *original)
     uint64_t key = HASH_START;
     struct ceduo_scene scene = *original; /* with the simulated profile; without memory the key differs */
     struct ceduo_slope simplified;
-    if (ceduo_slope_simplify(&original->slope, original->release.x.mean, &simplified) == CEDUO_OK && simplified.x)
+    ceduo_scene_average_releases(&scene);
+    if (ceduo_slope_simplify(&original->slope, scene.release.x.mean, &simplified) == CEDUO_OK && simplified.x)
         scene.slope = simplified;
     hash_fields(&key, ceduo_schema_scene(), (const char *)&scene, false);
     for (size_t i = 0; i + 1 < scene.slope.vertices; i++)

@@ -22,18 +22,21 @@ struct weight_totals ceduo_run_weight_totals(const struct ceduo_run *run, double
 static void bound_energies(const struct ceduo_run *run, struct weighted *max_energies)
 {
     const struct ceduo_scene *scene = &run->prepared.scene;
-    const struct ceduo_release *start = &scene->release;
-    const struct ceduo_number speeds[] = {start->vx, start->vz, start->spin};
-    double squares[3], lowest = INFINITY;
-    for (size_t i = 0; i < 3; i++) {
-        double fastest = fmax(fabs(ceduo_number_min(speeds[i])), fabs(ceduo_number_max(speeds[i])));
-        squares[i] = fastest * fastest;
-    }
+    double squares[3] = {0, 0, 0}, lowest = INFINITY, drop = 0;
+    size_t n;
+    const struct ceduo_release *releases = ceduo_scene_releases(scene, &n);
     for (size_t i = 0; i < scene->slope.vertices; i++)
         lowest = fmin(lowest, scene->slope.z[i]);
-    double drop = fmax(ceduo_slope_height(&scene->slope, ceduo_number_min(start->x)),
-                       ceduo_slope_height(&scene->slope, ceduo_number_max(start->x))) +
-                  ceduo_number_max(start->height) - lowest;
+    for (const struct ceduo_release *start = releases; start < releases + n; start++) {
+        const struct ceduo_number speeds[] = {start->vx, start->vz, start->spin};
+        for (size_t i = 0; i < 3; i++) {
+            double fastest = fmax(fabs(ceduo_number_min(speeds[i])), fabs(ceduo_number_max(speeds[i])));
+            squares[i] = fmax(squares[i], fastest * fastest);
+        }
+        drop = fmax(drop, fmax(ceduo_slope_height(&scene->slope, ceduo_number_min(start->x)),
+                               ceduo_slope_height(&scene->slope, ceduo_number_max(start->x))) +
+                              ceduo_number_max(start->height) - lowest);
+    }
     for (uint64_t r = 0; r < run->rocks; r++) {
         struct ceduo_rock rock = {0};
         ceduo_prepared_rock(&run->prepared, r, &rock);

@@ -70,8 +70,7 @@ static void on_end(void *context, size_t lane, enum ceduo_end end)
     w->batch->contacts += walker->contacts;
     w->batch->ends[end]++;
     w->batch->uphill += end == CEDUO_LEFT_SLOPE && !(walker->flight.x > 0);
-    w->batch->early +=
-        end == CEDUO_STOPPED_BY_STEMS && walker->flight.x < w->run->prepared.scene.release.x.mean + CEDUO_EARLY_M;
+    w->batch->early += end == CEDUO_STOPPED_BY_STEMS && walker->flight.x < walker->release->x.mean + CEDUO_EARLY_M;
     w->ends[walker->number - w->from] = (unsigned char)end;
     const struct marks *marks = &w->run->prepared.marks;
     for (size_t m = walker->next_mark; m < marks->n; m++) /* count the end at each control that the rock did not reach */

@@ -8,6 +8,20 @@
 
 /* ---- release ---- */
 
+/* Return the release of a rock. Shares need not add up to 1. */
+static const struct ceduo_release *choose_release(const struct walker *w, const struct ceduo_scene *scene)
+{
+    size_t n, i = 0;
+    const struct ceduo_release *releases = ceduo_scene_releases(scene, &n);
+    double all = 0;
+    for (size_t k = 0; k < n && n > 1; k++)
+        all += releases[k].share;
+    double remaining = n > 1 ? all * random_open(w->seed, w->number, 5, RANDOM_RELEASE) : 0;
+    while (i + 1 < n && (remaining -= releases[i].share) > 0)
+        i++;
+    return &releases[i];
+}
+
 static double draw_release(const struct walker *w, struct ceduo_number n, uint64_t event)
 {
     if (!(n.spread > 0))
@@ -41,18 +55,19 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared_sce
     w->rt_u = g->rt_varies ? random_open(w->seed, number, 1, RANDOM_GROUND) : 0;
     for (size_t i = 0; i < g->roughness_count; i++)
         w->theta[i] = roughness_angle(g->roughness[i], w->rock.radius);
-    double x = draw_release(w, scene->release.x, 0), height = draw_release(w, scene->release.height, 1);
+    const struct ceduo_release *release = w->release = choose_release(w, scene);
+    double x = draw_release(w, release->x, 0), height = draw_release(w, release->height, 1);
     const struct contact_law *law = contact_laws[scene->simulation.law];
     w->k = law->spins ? w->rock.k : 0;
     w->has_section = law->sections;
     if (w->has_section)
         draw_section(w);
-    w->spin = law->spins ? draw_release(w, scene->release.spin, 4) : 0;
+    w->spin = law->spins ? draw_release(w, release->spin, 4) : 0;
     size_t segment = ceduo_ground_segment(g, x);
     w->flight = (struct flight){.x = x,
                                 .z = ground_height(g, segment, x) + height,
-                                .vx = draw_release(w, scene->release.vx, 2),
-                                .vz = draw_release(w, scene->release.vz, 3),
+                                .vx = draw_release(w, release->vx, 2),
+                                .vz = draw_release(w, release->vz, 3),
                                 .segment = segment,
                                 .on_ground = !(height > 0)};
     w->contacts = 0;
@@ -75,14 +90,17 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared_sce
 bool ceduo_walk_is_identical(const struct prepared_scene *prepared)
 {
     const struct ground *g = &prepared->ground;
-    const struct ceduo_release *r = &prepared->scene.release;
-    return !ceduo_scene_rock_varies(&prepared->scene) && !g->rn_varies && !g->rt_varies && !(r->x.spread > 0) &&
-           !(r->height.spread > 0) && !(r->vx.spread > 0) && !(r->vz.spread > 0) && !(r->spin.spread > 0);
+    size_t n;
+    const struct ceduo_release *r = ceduo_scene_releases(&prepared->scene, &n);
+    return prepared->scene.releases_count <= 1 && !ceduo_scene_rock_varies(&prepared->scene) && !g->rn_varies &&
+           !g->rt_varies && !(r->x.spread > 0) && !(r->height.spread > 0) && !(r->vx.spread > 0) && !(r->vz.spread > 0) &&
+           !(r->spin.spread > 0);
 }
 
 void ceduo_walk_release_identical(struct walker *w, const struct walker *first, uint64_t number)
 {
     w->number = number;
+    w->release = first->release;
     w->spin = first->spin;
     w->flight = first->flight;
     w->contacts = 0;

@@ -37,6 +37,7 @@ struct walker {
     const struct ground *g;
     const struct marks *marks;
     uint64_t seed, number;
+    const struct ceduo_release *release; /* release of this rock */
     bool scale_rn, friction_bound;
     struct ceduo_rock rock;
     double k;         /* 0 if the law has no spin */
