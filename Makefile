@@ -4,6 +4,7 @@
 #   make            build the program, ./ceduo      make check      run the tests that CI runs; make quick: those of C
 #   make deps       install missing packages        make check-all  sanitizers, valgrind, Slurm: slow
 #   make run        compute the paper's site        make bench      measure speed against a plain C loop
+#   make region     compute the invented road of profiles/region, in build/region
 #   make install    PREFIX, DESTDIR; uninstall      make stress     ten million random scenes: slow
 #   make bench ONLY=times|errors|NAME...            those for an idle machine, the others, or these; make tables writes them
 #   make dist       pack the sources                VARIANT=release|debug|asan|tsan|cov|fuzz
@@ -21,7 +22,7 @@
 # ---- a fresh machine ----
 
 DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc gettext po4a pkgconf python3 \
-	tmux zsh locales parallel clang-format jq python3-jsonschema
+	tmux zsh locales parallel clang-format jq python3-jsonschema snakemake gdal-bin python3-gdal python3-numpy
 
 .PHONY: deps
 deps:
@@ -145,6 +146,12 @@ run: all
 	@echo
 	@echo "The terminal program: ./ceduo          Four systems side by side: ./ceduo --batch four-systems"
 	@echo "More: ./ceduo --help; man man/ceduo.1"
+
+# Copies the workflow of a region and runs it on two cores. What has not changed is not computed again.
+.PHONY: region
+region: all
+	@mkdir -p build/region && cp -Rup profiles/region/. build/region
+	cd build/region && PATH=$(call quoted,$(CURDIR)/$(BUILD)):$$PATH snakemake --cores 2 --rerun-incomplete
 
 # ---- translations ----
 

@@ -55,7 +55,7 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 SlurmdParameters=config_overrides
 SchedulerParameters=sched_interval=1
-NodeName=one NodeHostname=localhost NodeAddr=127.0.0.1 CPUs=8 State=UNKNOWN
+NodeName=one NodeHostname=localhost NodeAddr=127.0.0.1 CPUs=8 RealMemory=8000 State=UNKNOWN
 PartitionName=main Nodes=one Default=YES State=UP
 CONF
 export SLURM_CONF="$place/slurm.conf"

@@ -197,9 +197,10 @@ all-memory: all
 all-arm:
 	tests/arm.sh
 
-# Runs the workflows again, with Slurm on one node for their job arrays; reports the reason if Slurm does not start.
+# Runs the workflows again, with Slurm on one node for their job arrays and for the jobs of a region; reports the reason if Slurm does not start.
 all-slurm: all
-	CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) tests/slurm.sh tests/cli/test_workflows.py || [ $$? = 77 ]
+	CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) tests/slurm.sh sh -c 'tests/cli/test_workflows.py && tests/cli/test_region_workflow.py' || \
+	    [ $$? = 77 ]
 
 # Runs the tests in the archive, unpacked elsewhere.
 all-dist: dist

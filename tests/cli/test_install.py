@@ -54,6 +54,7 @@ def test_install():
                 "share/man/it/man1/ceduo.1", "share/man/it/man7/ceduo-workflows.7", "lib/libceduo.a", "lib/libceduo.so", "lib/libceduo.so.0", "lib/pkgconfig/ceduo.pc", "include/ceduo/ceduo.h"} <= names, names)
         shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").rglob("*.[1357]")]
         shipped += [*(ROOT / "profiles/jobs").iterdir(), *(ROOT / "profiles/surveys").iterdir(), *(ROOT / "profiles/observed").iterdir(),
+                    *(p for p in (ROOT / "profiles/region").iterdir() if p.is_file() and p.suffix != ".yaml"),
                     *(ROOT / "include/ceduo").glob("*.h"), *(ROOT / "src/po").glob("*.po"), *(ROOT / "man/examples").iterdir()]
         expect_equal(len(names), len(shipped) + 12, "files installed")  # with libraries, Italian pages and completions
         for name in names:
@@ -250,9 +251,9 @@ def test_bash():
         offered = {w.removeprefix("--") for w in completed(place, program, "--")}
         expect(offered >= {"batch", "years", "find", "plot", "version"} and offered <= options, offered ^ options)
         expect_equal(completed(place, program, "--to"), ["--tolerance"])
-        expect_equal(completed(place, program, "-f", ""), ["table", "csv", "json"])
+        expect_equal(completed(place, program, "-f", ""), ["table", "csv", "json", "geojson"])
         expect_equal(completed(place, program, "--format", "=", "j"), ["json"])
-        expect_equal(completed(place, program, "--format", "="), ["table", "csv", "json"])
+        expect_equal(completed(place, program, "--format", "="), ["table", "csv", "json", "geojson"])
         expect_equal(completed(place, program, "--plot", "h"), ["height", "histogram", "hazard"])
         expect_equal(completed(place, program, "--goal", "e"), ["energy", "exceed"])
         expect_equal(completed(place, program, "-s", "simulation.scale"), ["simulation.scale_rn="])
