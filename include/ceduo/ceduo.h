@@ -25,6 +25,7 @@ extern "C" {
 #include "assess.h"
 #include "blocks.h"
 #include "calibrate.h"
+#include "fence.h"
 #include "find.h"
 #include "handle.h"
 #include "hazard.h"

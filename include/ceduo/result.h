@@ -11,12 +11,15 @@ struct ceduo_simulated {
     uint64_t rocks; /* 0: no result */
     size_t controls;
     struct ceduo_arrivals *arrivals;
-    struct ceduo_hazard_curve *curves; /* `curve` of the arrivals points here; NULL without blocks */
+    struct ceduo_hazard_curve *curves;   /* `curve` of the arrivals points here; NULL without blocks */
+    struct ceduo_fence_arrivals *fences; /* likewise `fence`; NULL without fences and design values */
     struct ceduo_ends ends;
 };
 
-/* Read a run. Return CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
-enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *simulated);
+/* Read a run of a scene, which may differ from that of the run in its fences and design values. `bare`: results without forest;
+ * NULL: the run is without forest. Return CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
+enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, const struct ceduo_scene *scene,
+                                       const struct ceduo_simulated *bare, struct ceduo_simulated *simulated);
 /* Set unknown contacts to 0, for a forest without stems. */
 void ceduo_simulated_set_no_contacts(struct ceduo_simulated *simulated);
 /* Set the hazard relative to `bare`. */

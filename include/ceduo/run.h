@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "fence.h"
 #include "flag.h"
 #include "hazard.h"
 #include "scene.h"
@@ -67,12 +68,10 @@ struct ceduo_arrivals {
     double limit;                 /* of exceed: ceduo_exceed_limit() */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
     struct ceduo_estimate energy_per_released;                    /* J; no interval */
-    /* m: 95th percentile of the height of the top above the ground, clearance plus mean diameter; NaN if no design values are
-     * requested or no rock arrives */
-    double top_p95;
-    struct ceduo_estimate contacts;     /* with stems, of rocks that arrive; no interval; NaN: without forest */
-    struct ceduo_hazard hazard;         /* if the scene has blocks */
-    struct ceduo_topography topography; /* of the control */
+    struct ceduo_estimate contacts;           /* with stems, of rocks that arrive; no interval; NaN: without forest */
+    struct ceduo_hazard hazard;               /* if the scene has blocks */
+    const struct ceduo_fence_arrivals *fence; /* owned by struct ceduo_simulated; NULL: neither a fence nor design values */
+    struct ceduo_topography topography;       /* of the control */
 };
 
 /* Return the maximum share of the released rocks that may exceed the accepted energy: CEDUO_EXCEED_MAX. With blocks it is the
@@ -93,12 +92,19 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
 enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals,
                                    struct ceduo_hazard_curve *curve);
 
+/* Read the rocks at the fence of a control. `scene` may differ from that of the run in its fences and design values. `bare`:
+ * arrivals at this control without forest; NULL: the run is without forest. ceduo_fence_none() if the scene has neither a fence
+ * there nor design values. Return CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or CEDUO_OK. */
+enum ceduo_status ceduo_run_fence(const struct ceduo_run *run, const struct ceduo_scene *scene, size_t control,
+                                  const struct ceduo_arrivals *bare, struct ceduo_fence_arrivals *fence);
+
 /* Return the mean energy (J) of the rocks that reach a control, without interval, and set how many do. It is cheap. */
 struct ceduo_estimate ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached);
 
 /* Shares and means for `groups` consecutive groups of nearly equal size. Cheap, too. Requires at least `groups` rocks. */
 struct ceduo_group_means {
     double reach_probability, exceed_probability; /* of the released; exceed: NaN without an accepted energy */
+    double defeated_probability;                  /* share of the released; NaN without a fence */
     double energy;                                /* mean of the rocks that reach, J; NaN if none does */
     double energy_per_released;                   /* J */
 };

@@ -36,6 +36,28 @@ struct ceduo_release {
     double share;               /* share of all rocks, > 0, if there are several releases; they need not add up to 1 */
 };
 
+/* A net fence at a control. It changes no trajectory: the passing rocks are compared with it. A rock defeats the fence if its
+ * top passes above the fence, or if its energy of translation is above the energy of the fence; an equal value is held. */
+struct ceduo_fence {
+    double height; /* m, nominal, perpendicular to the ground; NaN or 0: no fence */
+    double energy; /* J that it holds (maximum energy level, MEL) */
+    double life;   /* years; NaN or 0: CEDUO_FENCE_LIFE */
+};
+
+#define CEDUO_FENCE_LIFE 50 /* years; assumed */
+
+/* True if there is a fence. */
+static inline bool ceduo_fence_stands(const struct ceduo_fence *fence)
+{
+    return fence->height > 0;
+}
+
+/* Return its life, years. */
+static inline double ceduo_fence_life(const struct ceduo_fence *fence)
+{
+    return fence->life > 0 ? fence->life : CEDUO_FENCE_LIFE;
+}
+
 /* A place at which passing rocks are counted. */
 struct ceduo_control {
     double x;              /* m, relative to the slope's first vertex */
@@ -47,6 +69,7 @@ struct ceduo_control {
     /* Years, > 0: accepted return period of rocks with more than `accepted`. NaN or 0: not given; see
      * ceduo_accepted_return(). */
     double accepted_return;
+    struct ceduo_fence fence; /* that stands here */
 };
 
 #define CEDUO_ACCEPTED_RETURN 100 /* years; assumed */
@@ -137,8 +160,15 @@ enum ceduo_quality {
 
 /* Survey qualities for the design values; -1: none requested. */
 struct ceduo_design_values {
-    int survey, blocks; /* enum ceduo_quality */
+    int survey, blocks;  /* enum ceduo_quality */
+    double fence_factor; /* factor of the energy of a fence, >= 1; NaN or 0: not given */
 };
+
+/* True if design values are requested. */
+static inline bool ceduo_design_is_requested(const struct ceduo_design_values *design)
+{
+    return design->survey >= 0 && design->blocks >= 0;
+}
 
 /* Head of a report, as an office writes it; NULL: not given. */
 struct ceduo_report_head {

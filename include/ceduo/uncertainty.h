@@ -40,6 +40,7 @@ enum ceduo_uncertainty_kind {
     CEDUO_UNCERTAINTY_ENERGY,
     CEDUO_UNCERTAINTY_MEAN,                              /* mean of the judged share over a rotation */
     CEDUO_UNCERTAINTY_FAILING,                           /* years of a rotation whose judged share exceeds CEDUO_EXCEED_MAX */
+    CEDUO_UNCERTAINTY_DEFEATED,                          /* share that defeats the fence, today */
     CEDUO_UNCERTAINTY_SHOWN,                             /* kinds below this are reported; the lights depend on the others: */
     CEDUO_UNCERTAINTY_CONTACT = CEDUO_UNCERTAINTY_SHOWN, /* 1/m, reciprocal of the longest ADC of a belt */
     CEDUO_UNCERTAINTY_FREE_RUN,                          /* highest probability of a free run */
@@ -146,7 +147,7 @@ const struct ceduo_uncertainty_figure *ceduo_uncertainty_find_figure(const struc
                                                                      size_t option, enum ceduo_uncertainty_kind kind,
                                                                      bool difference);
 
-/* Find the inputs that decide a light of the last control: contact, free run, or energy (CEDUO_UNCERTAINTY_EXCEED). Return the
+/* Find the inputs that decide a light of the last control: contact, free run, energy (CEDUO_UNCERTAINTY_EXCEED) or its fence. Return the
  * number of dominant inputs, 1 or 2, the largest share first. Return 0 if the light does not change within the 90 % range, or
  * if there are too few points. */
 size_t ceduo_uncertainty_dominant_inputs(const struct ceduo_scene *scene, const struct ceduo_uncertainty_result *answer,

@@ -103,6 +103,10 @@ struct ceduo_years_summary {
 };
 struct ceduo_years_summary ceduo_years_summarize(const struct ceduo_years *years, size_t control);
 
+/* Read the years at the fence of a control; `today`: arrivals with the forest of today. The loads are known without a fence, too,
+ * if the scene requests design values. */
+struct ceduo_fence_years ceduo_years_fence(const struct ceduo_years *years, size_t control, const struct ceduo_arrivals *today);
+
 /* Return the difference of the mean marked shares of two options, over the rocks that both have. NaN if unknown. */
 struct ceduo_estimate ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less);
 

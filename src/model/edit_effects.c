@@ -127,11 +127,26 @@ static void follow_stand(struct follow *f)
 static void follow_design(struct follow *f)
 {
     static const char *const both[2] = {"design.survey", "design.blocks"};
+    bool factor = strcmp(f->path, "design.gamma_e") == 0 && !ceduo_document_node(f->d, "design");
     for (int i = 0; i < 2; i++)
-        if (strcmp(f->path, both[i]) == 0 && !ceduo_document_node(f->d, "design")) {
+        if (factor || (strcmp(f->path, both[i]) == 0 && !ceduo_document_node(f->d, "design"))) {
             ceduo_changes_set(&f->changes, both[1 - i], "poor");
-            ceduo_text_append(&f->followed, _("the other survey is assumed to be poor"));
+            ceduo_text_append(&f->followed, factor && i == 0 ? "" : _("the other survey is assumed to be poor"));
         }
+}
+
+/* A fence needs an energy and a height: the other one is assumed. */
+static void follow_fence(struct follow *f)
+{
+    static const char *const keys[2] = {"fence.energy_kJ", "fence.height_m"}, *const values[2] = {"500", "4"};
+    for (int i = 0; i < 2 && strcmp(f->list, "controls") == 0 && strncmp(f->key, "fence.", 6) == 0; i++) {
+        const char *path = ceduo_arena_format(f->arena, "controls[%zu].%s", f->index, keys[i]);
+        if (strcmp(f->key, keys[i]) == 0 || ceduo_document_node(f->d, path))
+            continue;
+        ceduo_changes_set(&f->changes, path, "%s", values[i]);
+        ceduo_text_format(&f->followed,
+                          i == 0 ? _("assumed energy of the fence: %s kJ") : _("assumed height of the fence: %s m"), values[i]);
+    }
 }
 
 /* ---- conflicting values ---- */
@@ -278,6 +293,7 @@ bool ceduo_document_set_and_follow(struct document *d, const char *path, const c
         keep_one_of_all(&f);
     extend_ground(&f);
     follow_design(&f);
+    follow_fence(&f);
     follow_cylinder(&f);
     follow_share(&f);
     follow_border(&f);

@@ -403,6 +403,18 @@ static const struct field option_fields[] = {
 };
 static const struct object option_object = OBJECT(ceduo_option, option_fields, NULL);
 
+static const struct field fence_fields[] = {
+    NUMBER("energy_kJ", .shown = USUAL(N_("fence, kJ"), 35, 10000), MEMBER(ceduo_fence, energy),
+           SCALED_RANGE("kJ", 1000, 0, 1e6), .flags = REQUIRED | NO_RUN,
+           .meaning = N_("energy that it holds: maximum energy level (MEL) of the tested kit")),
+    NUMBER("height_m", .shown = USUAL(N_("fence, m high"), 1, 10), MEMBER(ceduo_fence, height), RANGE("m", 0, 100),
+           .flags = REQUIRED | ABOVE | NO_RUN, .meaning = N_("nominal height, perpendicular to the ground")),
+    NUMBER("life_y", .shown = USUAL(N_("life, years"), 5, 100), MEMBER(ceduo_fence, life), RANGE("y", 0, 1000),
+           .flags = ABOVE | NO_RUN,
+           .meaning = N_("years for which it stands, for the chance that a block defeats it; without it 50, an assumption")),
+};
+static const struct object fence_object = OBJECT(ceduo_fence, fence_fields, NULL);
+
 static const struct field control_fields[] = {
     NUMBER("x_m", .shown = BRIEF(N_("counted at, m"), N_("at m")), PLACE(ceduo_control, x_given, x),
            RANGE("m", -COORDINATE_MAX, COORDINATE_MAX), .flags = REQUIRED | FIELD_PLACE,
@@ -418,6 +430,8 @@ static const struct field control_fields[] = {
     NUMBER("measured_speed_m_s", .shown = SHOWN(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80),
            MEMBER(ceduo_control, measured_speed), RANGE("m/s", 0, 1000), .flags = NO_RUN,
            .meaning = N_("speed of a real rock seen there, for comparison")),
+    GROUP_LABELLED("fence", NAMED(N_("net fence")), MEMBER(ceduo_control, fence), NO_RUN | FIELD_CERTAIN,
+                   N_("a net fence that stands there, or is planned"), &fence_object),
 };
 static const struct object control_object = OBJECT(ceduo_control, control_fields, NULL);
 
@@ -456,6 +470,9 @@ static const struct field design_fields[] = {
          .meaning = N_("how good this survey is"), .choices = &ceduo_quality_words),
     WORD("blocks", .shown = NAMED(N_("survey of the blocks")), MEMBER(ceduo_design_values, blocks), .flags = REQUIRED | NO_RUN,
          .meaning = N_("how good this survey is"), .choices = &ceduo_quality_words),
+    NUMBER("gamma_e", .shown = NAMED(N_("factor of the fence")), MEMBER(ceduo_design_values, fence_factor), RANGE("", 1, 10),
+           .flags = NO_RUN,
+           .meaning = N_("factor by which the energy of a fence is divided for the needed class; without it none is applied")),
 };
 static const struct object design_object = OBJECT(ceduo_design_values, design_fields, NULL);
 

@@ -89,6 +89,7 @@ static void read_point(void *context, const struct point *point, const struct co
     for (size_t g = 0; g < GROUPS; g++) {
         values[CEDUO_UNCERTAINTY_REACH].value[g] = means[last].group[g].reach_probability;
         values[CEDUO_UNCERTAINTY_EXCEED].value[g] = weight * means[last].group[g].exceed_probability;
+        values[CEDUO_UNCERTAINTY_DEFEATED].value[g] = weight * means[last].group[g].defeated_probability;
         values[CEDUO_UNCERTAINTY_ENERGY].value[g] = means[last].group[g].energy_per_released;
         values[CEDUO_UNCERTAINTY_CONTACT].value[g] = 1 / index.worst_adc; /* no sampling noise: equal in all groups */
         values[CEDUO_UNCERTAINTY_FREE_RUN].value[g] = index.worst_free_run;
@@ -254,11 +255,15 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
     return CEDUO_OK;
 }
 
-/* True if a kind of figure is computed. Failing years require an accepted energy. */
+/* True if a kind of figure is computed. The defeated share requires a fence. Failing years require an accepted energy. */
 static bool is_computed(const struct rows *r, enum ceduo_uncertainty_kind kind)
 {
     if (is_rotation(kind))
         return r->years > 0 && (kind == CEDUO_UNCERTAINTY_MEAN || r->judged == CEDUO_UNCERTAINTY_EXCEED);
+    if (kind == CEDUO_UNCERTAINTY_DEFEATED) {
+        const struct ceduo_scene *scene = r->def->scene;
+        return ceduo_fence_stands(&scene->controls[ceduo_scene_last_control(scene)].fence);
+    }
     bool share = kind == CEDUO_UNCERTAINTY_REACH || kind == CEDUO_UNCERTAINTY_EXCEED;
     return !r->def->brief || (share ? kind == r->judged : kind != CEDUO_UNCERTAINTY_ENERGY || kind == r->answer->main);
 }
@@ -281,7 +286,7 @@ static int read_item(void *context, size_t item, size_t worker)
         f->difference = difference;
         f->option = option;
         bool decides = !difference && (f->kind == r->answer->main || f->kind == CEDUO_UNCERTAINTY_MEAN);
-        if (is_computed(r, f->kind) && decides == r->deciding)
+        if (is_computed(r, f->kind) && decides == r->deciding && !(difference && f->kind == CEDUO_UNCERTAINTY_DEFEATED))
             status = read_figure(r, &s, f);
     }
     close_subject(&s);
@@ -418,6 +423,7 @@ static enum ceduo_status read_sampling(struct rows *rows)
         struct ceduo_uncertainty_figure *f = &answer->figures[i * CEDUO_UNCERTAINTY_KINDS];
         set_sampling(&f[CEDUO_UNCERTAINTY_REACH], a->reach);
         set_sampling(&f[CEDUO_UNCERTAINTY_EXCEED], a->exceed);
+        set_sampling(&f[CEDUO_UNCERTAINTY_DEFEATED], a->fence ? a->fence->defeated : CEDUO_NO_ESTIMATE);
         struct ceduo_estimate energy = a->energy_per_released;
         double half = ceduo_half_width(energy.se, a->released);
         set_sampling(&f[CEDUO_UNCERTAINTY_ENERGY],
@@ -583,13 +589,13 @@ size_t ceduo_uncertainty_dominant_inputs(const struct ceduo_scene *scene, const 
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(a, option, light, false);
     if (!f)
         return 0;
-    double limit = light == CEDUO_UNCERTAINTY_EXCEED    ? judged_limit(scene)
+    bool share = light == CEDUO_UNCERTAINTY_EXCEED || light == CEDUO_UNCERTAINTY_DEFEATED;
+    double limit = share                                ? judged_limit(scene)
                    : light == CEDUO_UNCERTAINTY_CONTACT ? 1 / scene->simulation.threshold
                                                         : CEDUO_FREE_RUN_MAX;
     const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
     double gap = ceduo_assess_index(scene, &scene->options[option], control, NAN).longest_gap;
-    bool decided =
-        light != CEDUO_UNCERTAINTY_EXCEED && gap > scene->simulation.threshold; /* a gap decides, whatever the stands */
+    bool decided = !share && gap > scene->simulation.threshold; /* a gap decides, whatever the stands */
     if (decided || !f->fit.enough_points || !(f->fit.p5 <= limit && f->fit.p95 > limit))
         return 0;
     const struct ceduo_share *total = f->fit.total;

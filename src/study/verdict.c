@@ -6,9 +6,11 @@
 #include "ceduo/key.h"
 #include "ceduo/uncertainty.h"
 
-/* Return a share with the half width of its interval, which depends on weights if the rocks have weights. */
-static struct ceduo_mean_share read_share(const struct ceduo_arrivals *a, struct ceduo_estimate share)
+/* The interval depends on weights if the rocks have weights. */
+struct ceduo_mean_share ceduo_share_of(const struct ceduo_arrivals *a, struct ceduo_estimate share)
 {
+    if (!a)
+        return (struct ceduo_mean_share){NAN, NAN};
     double p = share.mean, half = isnan(a->hazard.per_year)
                                       ? ceduo_share_half_width(p, ceduo_share_se(p, (double)a->released), a->released)
                                       : (share.hi - share.lo) / 2;
@@ -17,17 +19,17 @@ static struct ceduo_mean_share read_share(const struct ceduo_arrivals *a, struct
 
 struct ceduo_mean_share ceduo_share_arriving(const struct ceduo_arrivals *a)
 {
-    return a ? read_share(a, a->reach) : (struct ceduo_mean_share){NAN, NAN};
+    return ceduo_share_of(a, a ? a->reach : CEDUO_NO_ESTIMATE);
 }
 
 struct ceduo_mean_share ceduo_share_exceeding(const struct ceduo_arrivals *a)
 {
-    return a ? read_share(a, a->exceed) : (struct ceduo_mean_share){NAN, NAN};
+    return ceduo_share_of(a, a ? a->exceed : CEDUO_NO_ESTIMATE);
 }
 
 struct ceduo_mean_share ceduo_share_judged(const struct ceduo_arrivals *a)
 {
-    return a ? read_share(a, ceduo_judged_share(a)) : (struct ceduo_mean_share){NAN, NAN};
+    return ceduo_share_of(a, a ? ceduo_judged_share(a) : CEDUO_NO_ESTIMATE);
 }
 
 static struct ceduo_estimate judged_difference(const struct ceduo_result *r, const struct ceduo_difference *d)
@@ -101,6 +103,18 @@ struct ceduo_mean_share ceduo_share_over_years(const struct ceduo_years *years, 
     return (struct ceduo_mean_share){mean.mean, ceduo_share_half_width(mean.mean, mean.se, years->rocks)};
 }
 
+static void read_fences(const struct ceduo_result *r, const struct ceduo_years *years, size_t option, struct arena *memory,
+                        struct ceduo_choice *c)
+{
+    size_t controls = years->scene.controls_count;
+    struct ceduo_fence_years *fences = ceduo_arena_alloc(memory, controls * sizeof *fences);
+    if (!fences || !ceduo_result_wooded(r, option, 0))
+        return;
+    for (size_t k = 0; k < controls; k++)
+        fences[k] = ceduo_years_fence(years, k, ceduo_result_wooded(r, option, k));
+    c->fences = fences;
+}
+
 static void read_years(const struct ceduo_years *years, struct arena *memory, struct ceduo_choice *c)
 {
     size_t controls = years->scene.controls_count;
@@ -148,6 +162,8 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
         c->energy_known = r->wooded && !isnan(r->scene->controls[r->last_control].accepted);
         if (years)
             read_years(years, memory, c);
+        if (years && c->window.kind != CEDUO_WINDOW_CONSTANT)
+            read_fences(r, years, option, memory, c);
         if (full) {
             const struct ceduo_years_summary s = ceduo_years_summarize(full, full->last_control);
             c->rotation = ceduo_share_over_years(full, &s);

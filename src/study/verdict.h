@@ -24,6 +24,9 @@ struct ceduo_mean_share ceduo_share_judged(const struct ceduo_arrivals *arrivals
 struct ceduo_mean_share ceduo_share_arriving(const struct ceduo_arrivals *arrivals);
 struct ceduo_mean_share ceduo_share_exceeding(const struct ceduo_arrivals *arrivals);
 
+/* Return a share of the released with the half width of its interval. `arrivals` may be NULL. */
+struct ceduo_mean_share ceduo_share_of(const struct ceduo_arrivals *arrivals, struct ceduo_estimate share);
+
 /* Return the mean over the years of the judged share at the last control, from its summary. */
 struct ceduo_mean_share ceduo_share_over_years(const struct ceduo_years *years, const struct ceduo_years_summary *summary);
 
@@ -35,6 +38,7 @@ struct ceduo_choice {
     struct ceduo_mean_share today, worst, mean;     /* worst, mean: over the years */
     const struct ceduo_years_summary *summaries;    /* over the years, for each control; NULL: unknown */
     const struct ceduo_years_summary *last_summary; /* at the last control; years 0: unknown */
+    const struct ceduo_fence_years *fences;         /* over the years, for each control; NULL: unknown */
     struct ceduo_mean_share rotation;               /* mean over a rotation, ceduo_window_compute(); NaN: unknown */
     uint64_t rocks;                                 /* per year, perhaps fewer than today */
     bool energy_known;                              /* the number of failing years is known */

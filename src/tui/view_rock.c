@@ -45,7 +45,7 @@ static void build_rock(struct app *app, struct form *form)
         build_blocks(form, NULL);
     else
         ceduo_form_heading(form, _("Surveys and title"));
-    ceduo_form_fields(form, "", "design.survey design.blocks title");
+    ceduo_form_fields(form, "", "design.survey design.blocks design.gamma_e title");
     ceduo_form_heading(form, _("Head of the report"));
     ceduo_form_rest(form, "page");
 }

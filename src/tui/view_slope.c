@@ -12,6 +12,20 @@
 
 #define LISTED_MAX 200 /* max. points to edit */
 
+/* Add the fence of each control. */
+static void build_fences(struct app *app, struct form *form)
+{
+    const struct node *controls = ceduo_document_node(&app->document, "controls");
+    if (!controls)
+        return;
+    ceduo_form_heading(form, _("Net fence"));
+    for (size_t i = 0; i < app->document.file.scene.controls_count; i++) {
+        if (controls->n > 1)
+            ceduo_form_note(form, ceduo_app_format(app, _("at %s m"), LOCALIZED(app->document.file.scene.controls[i].x_given)));
+        ceduo_form_fields(form, ceduo_app_format(app, "controls[%zu].fence.", i), "energy_kJ height_m life_y");
+    }
+}
+
 static void build_slope(struct app *app, struct form *form)
 {
     const struct document *d = &app->document;
@@ -26,6 +40,7 @@ static void build_slope(struct app *app, struct form *form)
                                                           : "x_m name accepted_kJ measured_speed_m_s");
     else
         ceduo_form_field(form, "controls_m", NULL);
+    build_fences(app, form);
     ceduo_form_heading(form, _("Ground"));
     ceduo_form_field(form, "slope.facets", NULL);
     if (d->file.scene.slope.reversed)

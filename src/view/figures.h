@@ -36,6 +36,8 @@ struct ceduo_place {
     size_t item, column, figure, input; /* item, column: in a list of the last two reports */
     const struct ceduo_year *year;      /* NULL: the stands of the file */
     struct ceduo_years_summary sum;     /* summary of the option's years, if requested */
+    bool designed;                      /* the scene requests design values: */
+    struct ceduo_designs designs;       /* those of the control */
 };
 
 struct ceduo_figure;

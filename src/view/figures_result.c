@@ -79,6 +79,12 @@ OBJECT(get_belt, place, &get_forest(o)->belts[o->belt])
 OBJECT(get_stand, place, get_stand_result(o))
 OBJECT(get_rules, place, get_stand_result(o)->rules.regulation ? &get_stand_result(o)->rules : NULL)
 OBJECT(get_control, place, &get_result(o)->scene->controls[o->control])
+OBJECT(get_fence, place, ceduo_fence_stands(&get_result(o)->scene->controls[o->control].fence) ? o : NULL)
+OBJECT(get_fence_years, place, o->year ? NULL : ceduo_report_fence_years(o->report, o->option, o->control))
+OBJECT(get_designs, place, o->designed ? &o->designs : NULL)
+OBJECT(get_fenced, arrivals, ceduo_fence_find(o))
+OBJECT(get_smallest, fence_arrivals, ceduo_fence_smallest(o->enough))
+OBJECT(get_smallest_of_years, fence_years, ceduo_fence_smallest(o->enough))
 OBJECT(get_index, place, &get_indices(o)[o->control])
 OBJECT(get_last_index, place, &get_indices(o)[get_result(o)->last_control])
 OBJECT(get_bare, place, &get_result(o)->bare.arrivals[o->control])
@@ -135,7 +141,15 @@ static bool enter_option(struct ceduo_place *p, size_t i)
 }
 
 ENTER(enter_belt, belt, get_forest(p)->belts_count)
-ENTER(enter_control, control, get_result(p)->scene->controls_count)
+
+static bool enter_control(struct ceduo_place *p, size_t i)
+{
+    p->control = i;
+    bool inside = i < get_result(p)->scene->controls_count;
+    if (inside)
+        p->designed = ceduo_designs_compute(p->report, p->option, i, get_wooded_arrivals(p), &p->designs);
+    return inside;
+}
 
 static bool enter_year(struct ceduo_place *p, size_t i)
 {
@@ -213,6 +227,10 @@ VALUE(points_given, slope, COUNT, COUNT(o->points > 0 ? o->points : o->vertices)
 VALUE(points_used, slope, COUNT, COUNT(o->vertices))
 VALUE(impact_law, scene, TEXT, WORD(ceduo_law_words.names[o->simulation.law]))
 VALUE(accepted_energy, control, NUMBER, NUMBER(ceduo_words_accepted(o)))
+VALUE(fence_life, control, NUMBER, NUMBER(ceduo_fence_life(&o->fence)))
+VALUE(choice_class, fence_choice, COUNT, o->class_index < CEDUO_FENCE_CLASSES ? COUNT((uint64_t)o->class_index) : NO_VALUE)
+VALUE(design_class, fence_design, COUNT, o->class_index >= 0 ? COUNT((uint64_t)o->class_index) : NO_VALUE)
+VALUE(design_class_factored, fence_design, COUNT, o->class_factored >= 0 ? COUNT((uint64_t)o->class_factored) : NO_VALUE)
 VALUE(rocks_reached, arrivals, COUNT, isnan(o->reach.mean) ? NO_VALUE : COUNT(o->reached))
 VALUE(adc_rule, stand_result, TEXT, WORD(isinf(o->adc_m) ? NULL : ceduo_rule_words.names[o->rule]))
 VALUE(region_name, compliance, TEXT, WORD(o->regulation->name))
@@ -370,6 +388,118 @@ static const struct ceduo_figure hazard_figures[] = {
      MEMBER(hazard, remaining_share), .null = "it is 0 without forest"},
     END};
 
+/* ---- fences ---- */
+
+#define NO_CLASS  "no class is enough"
+#define NO_HEIGHT "no class of any height is enough"
+#define NO_BLOCKS "the scene has no blocks"
+#define SHARE(key, meaning, member)                                                                                            \
+    {key, "", meaning, MEMBER(fence_arrivals, member.mean)},                                                                   \
+        {key "_lo", "", "lower end of its 95 % interval", MEMBER(fence_arrivals, member.lo)},                                  \
+    {                                                                                                                          \
+        key "_hi", "", "upper end of its 95 % interval, where an unfinished rock counts", MEMBER(fence_arrivals, member.hi)    \
+    }
+
+static const void *enough_item(const void *object, size_t i)
+{
+    return i < CEDUO_FENCE_HEIGHTS ? &((const struct ceduo_fence_arrivals *)object)->enough[i] : NULL;
+}
+
+static const void *enough_in_years_item(const void *object, size_t i)
+{
+    return i < CEDUO_FENCE_HEIGHTS ? &((const struct ceduo_fence_years *)object)->enough[i] : NULL;
+}
+
+static const struct ceduo_figure fence_choice[] = {
+    {"height_m", "m", "height", MEMBER(fence_choice, height)},
+    {"class", "", "smallest class of ETAG 027 that at most the share of lights.energy defeats", .value = choice_class,
+     .null = NO_CLASS},
+    {"energy_kJ", "kJ",
+     "energy of this class; of class 8, which has no upper end, the largest energy of a rock under this height",
+     MEMBER(fence_choice, energy), .scale = J_TO_KJ, .null = NO_CLASS},
+    {"defeated", "", "share of the released that defeats such a fence; of class 8 if no class is enough",
+     MEMBER(fence_choice, defeated)},
+    {"decided", "", "whether the 95 % intervals leave the class as it is", MEMBER(fence_choice, decided)},
+    END};
+
+static const struct ceduo_figure fence_arrivals[] = {
+    SHARE("over", "share of all released whose top passes above the fence", above),
+    SHARE("through", "share with more energy of translation than the fence holds", through),
+    SHARE("both", "share that does both", both),
+    SHARE("defeated", "share that does either: over + through - both", defeated),
+    SHARE("worn", "share that is held with more than a third of the energy: above the service level", worn),
+    {"per_year", "1/y", "rocks a year that defeat the fence", MEMBER(fence_arrivals, per_year), .null = NO_BLOCKS},
+    {"in_life", "", "chance that one does in the life of the fence", MEMBER(fence_arrivals, in_life), .null = NO_BLOCKS},
+    {"enough", "", "heights of 2 to 8 m, each with the smallest class that is enough", .table = fence_choice,
+     .item = enough_item, .columns = CEDUO_FENCE_HEIGHTS},
+    {"smallest", "", "the smallest of these classes, and its smallest height", .from = get_smallest, .table = fence_choice,
+     .null = NO_HEIGHT},
+    END};
+
+static const struct ceduo_figure fence_years[] = {
+    {"mean", "", "share of the released that defeats the fence, mean of the years", MEMBER(fence_years, mean.mean)},
+    {"mean_lo", "", "lower end of its interval: mean of the lower ends of the years", MEMBER(fence_years, mean.lo)},
+    {"mean_hi", "", "upper end", MEMBER(fence_years, mean.hi)},
+    {"worst", "", "the share of the worst year", MEMBER(fence_years, worst.mean)},
+    {"worst_lo", "", "lower end of its 95 % interval", MEMBER(fence_years, worst.lo)},
+    {"worst_hi", "", "upper end of its 95 % interval", MEMBER(fence_years, worst.hi)},
+    {"worst_year", "y", "that year", MEMBER(fence_years, worst_year)},
+    {"failing_years", "", "years in which a larger share defeats the fence than lights.energy allows",
+     MEMBER(fence_years, failing)},
+    {"per_year", "1/y", "rocks a year that defeat the fence, mean of the years", MEMBER(fence_years, per_year),
+     .null = NO_BLOCKS},
+    {"in_life", "", "chance that one does in the life of the fence", MEMBER(fence_years, in_life), .null = NO_BLOCKS},
+    {"enough", "", "the same as of today, for the largest share of today and of all years", .table = fence_choice,
+     .item = enough_in_years_item, .columns = CEDUO_FENCE_HEIGHTS},
+    {"smallest", "", "the smallest of these classes, and its smallest height", .from = get_smallest_of_years,
+     .table = fence_choice, .null = NO_HEIGHT},
+    END};
+
+static const struct ceduo_figure fence[] = {
+    {"energy_kJ", "kJ", "as in the scene", .from = get_control, MEMBER(control, fence.energy), .scale = J_TO_KJ},
+    {"height_m", "m", "as in the scene", .from = get_control, MEMBER(control, fence.height)},
+    {"life_y", "y", "as in the scene, or 50", .from = get_control, .value = fence_life},
+    {"window", "", "the years ahead, of this option", .from = get_fence_years, .table = fence_years,
+     .null = "no option grows or is cut, contact_model is index, or in a year of --years"},
+    END};
+
+#define NO_LOAD "fewer rocks arrive than the percentile counts"
+static const struct ceduo_figure design_values[] = {
+    {"speed_m_s", "m/s", "95th percentile of the speed, times survey and model", MEMBER(fence_design, speed), .null = NO_ROCK},
+    {"energy_kJ", "kJ", "95th percentile of the energy of translation, times blocks and the square of survey and model",
+     MEMBER(fence_design, energy), .scale = J_TO_KJ, .null = NO_ROCK},
+    {"height_m", "m",
+     "height of the fence: 95th percentile of the middle of the rocks and 0.5 m, or of their top if it is larger",
+     MEMBER(fence_design, height), .null = NO_ROCK},
+    {"class", "", "smallest class that holds energy_kJ", .value = design_class, .null = NO_LOAD},
+    {"class_gamma_e", "", "smallest class that holds energy_kJ times gamma_e", .value = design_class_factored,
+     .null = "design.gamma_e is not given, or " NO_LOAD},
+    END};
+
+static const struct ceduo_figure design_factors[] = {
+    {"survey", "", "of the survey of the ground", MEMBER(fence_factors, survey)},
+    {"model", "", "of the model: whether it is fitted to observations", MEMBER(fence_factors, model)},
+    {"blocks", "", "of the survey of the blocks", MEMBER(fence_factors, blocks)},
+    {"gamma_e", "", "of the energy of the fence, as in the scene", MEMBER(fence_factors, energy),
+     .null = "design.gamma_e is not given"},
+    END};
+
+static const struct ceduo_figure worst_designs[] = {
+    {"arrivals", "", "of the rocks that arrive", IN(designs, values[CEDUO_DESIGN_WORST_ARRIVING], design_values)},
+    {"system", "", "of forest and fence as one system", IN(designs, values[CEDUO_DESIGN_WORST_SYSTEM], design_values)},
+    END};
+
+static const struct ceduo_figure designs[] = {
+    {"factors", "", "partial factors of UNI 11211-4", IN(designs, factors, design_factors)},
+    {"bare", "", "of the rocks that arrive without forest", IN(designs, values[CEDUO_DESIGN_BARE], design_values)},
+    {"arrivals", "", "of the rocks that arrive with forest", IN(designs, values[CEDUO_DESIGN_ARRIVING], design_values)},
+    {"system", "",
+     "of forest and fence as one system: percentiles of the rocks that arrive without forest, where one that the forest stops "
+     "counts as 0",
+     IN(designs, values[CEDUO_DESIGN_SYSTEM], design_values)},
+    {"worst", "", "the largest of the years ahead", .table = worst_designs},
+    END};
+
 #define MISSED(end) .value = missed_at, .offset = offsetof(struct ceduo_arrivals, missed[end])
 static const struct ceduo_figure missed[] = {
     {"stopped_by_stems", "", "share of the released that stems stop before it", MISSED(CEDUO_STOPPED_BY_STEMS)},
@@ -394,6 +524,7 @@ static const struct ceduo_figure arrivals[] = {
     {"height_m", "m", "height of their underside above the ground", IN(arrivals, height, distribution)},
     {"energy_per_released_kJ", "kJ", "energy over all released rocks; one that does not arrive counts as 0",
      IN(arrivals, energy_per_released, paired), .scale = J_TO_KJ},
+    {"fence", "", "rocks at the fence", .from = get_fenced, .table = fence_arrivals, .null = "the control has no fence"},
     {"missed", "", "ends of the released rocks that do not reach it; with reach_probability these add up to 1",
      .table = missed},
     {"hazard", "", "frequency and energy of the rocks", .from = get_hazard_figures, .table = hazard_figures,
@@ -562,6 +693,7 @@ static const struct ceduo_figure control[] = {
     {"x_m", "m", "as in the scene", .from = get_control, MEMBER(control, x_given)},
     {"name", "", "as in the scene", .from = get_control, MEMBER(control, name_given), .null = "the control has none"},
     {"accepted_kJ", "kJ", "as in the scene", .from = get_control, .value = accepted_energy, .null = "the control has none"},
+    {"fence", "", "the net fence there", .from = get_fence, .table = fence, .null = "the control has none"},
     {"topography", "", "position of the control below the release", .from = get_topography, .table = topography},
     {"bare", "", "rocks that arrive without forest", .from = get_bare, .table = arrivals},
     {"index", "", "the index of the paper", .from = get_index, .table = by_index},
@@ -569,6 +701,7 @@ static const struct ceduo_figure control[] = {
      .null = "contact_model is index"},
     {"other_energy", "", "the same rocks under the other energy law of stems", .from = get_alt, .table = alternative_energy,
      .null = "the option has no stems, contact_model is index, and in a year of --years"},
+    {"design", "", "design values of a fence there", .from = get_designs, .table = designs, .null = "the scene has no design"},
     {"lights", "", "verdicts on the way from the release to this control, each pass, fail or unknown, never merged into one",
      .from = get_index, .table = lights},
     {"verdict", "", "answer for the control", .table = verdict},
@@ -885,6 +1018,12 @@ const struct ceduo_figure_list ceduo_figure_lists[] = {
     {"The objects bare and wooded of a control", arrivals},
     {"Each of their distributions, over the rocks that reach the control", distribution},
     {"Each other mean", paired},
+    {"The object fence of a control", fence},
+    {"The objects fence of bare and wooded", fence_arrivals},
+    {"Each of their choices", fence_choice},
+    {"Its object window", fence_years},
+    {"The object design", designs},
+    {"Each of its design values", design_values},
     {"The object hazard", hazard_figures},
     {"Each rate of it", rate_figures},
     {"An object of years", year},

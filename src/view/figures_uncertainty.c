@@ -77,6 +77,7 @@ static const char *figure_key(const struct ceduo_place *p)
         [CEDUO_UNCERTAINTY_ENERGY] = "energy_per_released_kJ",
         [CEDUO_UNCERTAINTY_MEAN] = "rotation.exceed_probability",
         [CEDUO_UNCERTAINTY_FAILING] = "rotation.unprotected_energy",
+        [CEDUO_UNCERTAINTY_DEFEATED] = "fence.defeated",
     };
     enum ceduo_uncertainty_kind kind = get_figure(p)->kind;
     bool reaches = kind == CEDUO_UNCERTAINTY_MEAN && p->uncertainty->answer->main == CEDUO_UNCERTAINTY_ENERGY;

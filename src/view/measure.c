@@ -98,8 +98,7 @@ struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind kind, const st
                                                 [CEDUO_RELEASED_KJ] = J_TO_KJ * a->energy_per_released.mean,
                                                 [CEDUO_P95_HEIGHT] = a->height.p95,
                                                 [CEDUO_SPEED] = a->speed.mean,
-                                                [CEDUO_STEMS_HIT] = a->contacts.mean,
-                                                [CEDUO_P95_TOP] = a->top_p95};
+                                                [CEDUO_STEMS_HIT] = a->contacts.mean};
     double value = a->released > 0 ? values[kind] : NAN, half_width = half_widths[kind] > 0 ? half_widths[kind] : NAN;
     return (struct ceduo_measure){.value = value,
                                   .lo = value - half_width,
@@ -109,6 +108,64 @@ struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind kind, const st
                                   .p95 = NAN,
                                   .digits = kind < CEDUO_MEAN_KJ ? 0 : 3,
                                   .names = {names[kind].name, names[kind].name, names[kind].name, names[kind].phrase}};
+}
+
+const struct ceduo_fence_arrivals *ceduo_fence_find(const struct ceduo_arrivals *a)
+{
+    return a && a->fence && !isnan(a->fence->defeated.mean) ? a->fence : NULL;
+}
+
+struct ceduo_measure ceduo_measure_fence(enum ceduo_fence_share what, const struct ceduo_arrivals *a)
+{
+    static const struct {
+        const char *name, *phrase;
+    } names[CEDUO_FENCE_SHARES] = {[CEDUO_FENCE_ABOVE] = {N_("over the fence"), N_("pass above the fence")},
+                                   [CEDUO_FENCE_THROUGH] = {N_("through it"), N_("have more energy than it holds")},
+                                   [CEDUO_FENCE_BOTH] = {N_("over and through"), N_("both above and too much energy")},
+                                   [CEDUO_FENCE_DEFEATED] = {N_("fence beaten"), N_("defeat the fence")},
+                                   [CEDUO_FENCE_WORN] = {N_("wear it"), N_("held, with over a third of its energy")}};
+    const struct ceduo_fence_arrivals *f = ceduo_fence_find(a);
+    const struct ceduo_estimate none = CEDUO_NO_ESTIMATE;
+    const struct ceduo_estimate *const shares[] = {&f->above, &f->through, &f->both, &f->defeated, &f->worn};
+    const struct ceduo_estimate *share = f ? shares[what] : &none;
+    struct ceduo_measure m = make_share(ceduo_share_of(a, *share), share->lo, share->hi);
+    m.names[CEDUO_HEAD] = m.names[CEDUO_SHORT_HEAD] = m.names[CEDUO_ROW] = names[what].name;
+    m.names[CEDUO_PHRASE] = names[what].phrase;
+    return m;
+}
+
+/* Factors in UNI 11211-4: 1.02 for a good survey or a fitted model, otherwise 1.10. */
+#define FACTOR(good) ((good) ? 1.02 : 1.10)
+
+bool ceduo_designs_compute(const struct ceduo_report *report, size_t option, size_t control,
+                           const struct ceduo_arrivals *wooded, struct ceduo_designs *to)
+{
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_design_values *d = &r->scene->design;
+    const struct ceduo_fence_years *years = ceduo_report_fence_years(report, option, control);
+    to->calibrated = ceduo_notes_print(report->file->notes, "calibrated", "slope");
+    to->factors = (struct ceduo_fence_factors){.survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD),
+                                               .model = FACTOR(to->calibrated),
+                                               .blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD),
+                                               .energy = d->fence_factor > 0 ? d->fence_factor : NAN};
+    const struct ceduo_fence_arrivals none = ceduo_fence_none(), *bare = r->bare.arrivals[control].fence,
+                                      *through = wooded && wooded->fence ? wooded->fence : &none;
+    const struct ceduo_fence_load *const loads[CEDUO_DESIGN_KINDS] = {
+        [CEDUO_DESIGN_BARE] = bare ? &bare->arriving : &none.arriving,
+        [CEDUO_DESIGN_ARRIVING] = &through->arriving,
+        [CEDUO_DESIGN_SYSTEM] = &through->system,
+        [CEDUO_DESIGN_WORST_ARRIVING] = years ? &years->arriving : &none.arriving,
+        [CEDUO_DESIGN_WORST_SYSTEM] = years ? &years->system : &none.system};
+    for (size_t i = 0; i < CEDUO_DESIGN_KINDS; i++)
+        to->values[i] = ceduo_fence_design(loads[i], &to->factors);
+    return ceduo_design_is_requested(d);
+}
+
+const struct ceduo_fence_years *ceduo_report_fence_years(const struct ceduo_report *report, size_t option, size_t control)
+{
+    const struct ceduo_choice *c = ceduo_report_years_ahead(report, option);
+    const struct ceduo_fence_years *years = c && c->fences ? &c->fences[control] : NULL;
+    return years && years->years > 0 ? years : NULL;
 }
 
 uint64_t ceduo_rocks_released(const struct ceduo_arrivals *a)

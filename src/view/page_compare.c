@@ -36,6 +36,7 @@
     X(FAIL, NULL, -4, COL_SHRINK | COL_PRIORITY(2))                                                                            \
     X(FAIL_CONTACT, NP_("head", "fail C|years in which contact fails"), -4, COL_SHRINK | COL_PRIORITY(2))                      \
     X(FAIL_FREE_RUN, NP_("head", "fail F|years in which free runs fail"), -4, COL_SHRINK | COL_PRIORITY(2))                    \
+    X(FENCE, NP_("head", "fence|smallest fence that is enough: class, height"), -6, COL_SHRINK | COL_PRIORITY(4))              \
     X(FELLED, NP_("head", "m3/y|felled, m3 per ha and year"), -4, COL_SHRINK | COL_PRIORITY(3))                                \
     X(ROTATION, NP_("head", "rotation|mean over a whole rotation"), -5, COL_SHRINK | COL_PRIORITY(5))                          \
     X(STANDING, NP_("head", "m3/ha|standing, m3 per ha"), -4, COL_SHRINK)                                                      \
@@ -67,18 +68,18 @@ static const struct ceduo_page_column columns[COLUMNS] = {
 #undef X
 };
 
-#define COLUMNS_SHOWN 14
+#define COLUMNS_SHOWN 15
 
 /* Columns of each table, by the index and with rocks through the forest. Columns that are empty in all rows are dropped. */
 static const enum column column_sets[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
     [CEDUO_OPTIONS_SHORT] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M, RESIDUAL},
-                             {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, ADC, FELLED}},
+                             {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, FENCE, ADC, FELLED}},
     [CEDUO_OPTIONS_TODAY] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M, RESIDUAL},
                              {NAME, TODAY, ENERGY, TO_FIRST, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN}},
     [CEDUO_OPTIONS_YEARS] = {{NAME, WORST_ADC, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING},
                              {NAME, MEAN, ROTATION, WORST, FAIL, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING}},
     [CEDUO_OPTIONS_PANE] = {{NAME, ADC, PER_100M, WORST_ADC, FAIL_CONTACT, FELLED, CONTACT, FREE_RUN},
-                            {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, FELLED, MARK, ENERGY, CONTACT, FREE_RUN,
+                            {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, FENCE, FELLED, MARK, ENERGY, CONTACT, FREE_RUN,
                              YEARS}},
     [CEDUO_OPTIONS_BARS] = {{NAME, BAR, ADC, CONTACT, BAR, PER_100M, BAR, RESIDUAL},
                             {NAME, BAR, TODAY, ENERGY, BAR, MEAN_KJ, BAR, ADC, CONTACT}},
@@ -198,6 +199,17 @@ static const char *format_share(struct ceduo_measure share, struct ceduo_estimat
     return rates ? ceduo_words_return_period_range(rate, buffer) : ceduo_measure_error(share, "", buffer);
 }
 
+/* Return class and height of the smallest fence that is enough, in all years if they are known. */
+static const char *format_fence(const struct ceduo_subject *s, char buffer[CEDUO_WORDS_SIZE])
+{
+    const struct ceduo_fence_arrivals *f = ceduo_fence_find(s->index ? s->wooded : s->bare);
+    const struct ceduo_fence_years *years = s->index ? ceduo_report_fence_years(s->report, s->option, s->control) : NULL;
+    if (!f)
+        return "";
+    const struct ceduo_fence_choice *c = ceduo_fence_smallest(years ? years->enough : f->enough);
+    return c ? format_to(buffer, "%d, %u m", c->class_index, c->height) : _("none");
+}
+
 static const char *format_cell(enum column column, const struct ceduo_subject *s, char buffer[CEDUO_WORDS_SIZE])
 {
     const struct ceduo_choice *c = s->choice && s->choice->last_summary->years > 0 ? s->choice : NULL;
@@ -233,6 +245,8 @@ static const char *format_cell(enum column column, const struct ceduo_subject *s
             return ceduo_words_judgement_mark(s->outcome.answer, buffer);
         return c && c->energy_known ? format_to(buffer, "%zu/%zu", c->last_summary->unprotected_energy, c->last_summary->years)
                                     : unknown;
+    case FENCE:
+        return format_fence(s, buffer);
     case FAIL_CONTACT:
         return judged ? format_to(buffer, "%zu/%zu", c->last_summary->unprotected_contact, c->last_summary->years) : unknown;
     case FAIL_FREE_RUN:
@@ -324,7 +338,8 @@ static void add_option_row(struct ceduo_page *page, const enum column *set, cons
             add_bar(page, set[i + 1], s, scales[i].limit);
         else if (column >= RETURN_1)
             ceduo_page_return(page, ceduo_hazard_find(s->wooded), (size_t)(1 + column - RETURN_1));
-        else if (!s->index && !(column == TODAY || column == MEAN_KJ || column == RESIDUAL || column >= PERIOD))
+        else if (!s->index &&
+                 !(column == TODAY || column == MEAN_KJ || column == RESIDUAL || column == FENCE || column >= PERIOD))
             ceduo_page_cell_format(page, "%s", "");
         else
             ceduo_page_cell_role(page,

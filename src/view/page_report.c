@@ -133,6 +133,7 @@ static void add_option_percentiles(struct ceduo_page *page, const struct ceduo_r
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_PLACE), _("At %s, with '%s'"), ceduo_text_string(&place),
                           r->scene->options[option].name);
         ceduo_page_percentiles(page, r, option, k, true);
+        ceduo_page_fence(page, report, option, k);
         ceduo_page_design(page, report, option, k);
     }
 }
@@ -249,6 +250,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     add_uncertainty(page, report);
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
+    ceduo_page_fence_answer(page, report, false);
     add_slope(page, report);
     add_option_percentiles(page, report);
     if (several && controls) {
@@ -265,6 +267,14 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     }
     if (controls && !is_crowded(report))
         ceduo_page_laws(page, report);
+    if (report->snapshot && controls && !is_crowded(report) &&
+        ceduo_fence_stands(&scene->controls[report->result->last_control].fence)) {
+        struct ceduo_picture picture = make_picture(report, 0);
+        add_picture(
+            page, CEDUO_PLOT_FENCE, FULL_CELLS, HAZARD_ROWS, &picture,
+            _("Rocks of 1000 that defeat a fence of this height, by the class of the fence, without forest and for each "
+              "option."));
+    }
     if (controls) {
         if (report->uncertainty && report->uncertainty->answer)
             ceduo_uncertainty_blocks(page, report->uncertainty, scene->options_count <= CROWDED_OPTIONS);

@@ -98,7 +98,7 @@ static void add_figure(struct ceduo_page *page, struct ceduo_measure wooded, str
 void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s, int lines, bool with_bare)
 {
     enum { LOW = 15, MIN = 18, ALL = 24, FULL = CEDUO_LINES_ALL };
-    static const int min_lines[CEDUO_P95_TOP] = {LOW, MIN, MIN, LOW, LOW, LOW, FULL, ALL, FULL, FULL};
+    static const int min_lines[CEDUO_MEASURE_KINDS] = {LOW, MIN, MIN, LOW, LOW, LOW, FULL, ALL, FULL, FULL};
     const struct ceduo_arrivals *wooded = s->index ? s->wooded : NULL, *bare = with_bare ? s->bare : NULL;
     bool full = lines >= FULL, nothing = !full && ceduo_too_few_arrivals(s->bare), blocks = ceduo_hazard_find(s->bare);
     int width = page->width >= CEDUO_PAGE_WIDTH ? 18 : page->width >= PANE_WIDE ? 14 : 7;
@@ -120,7 +120,10 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
                                 {_("return period of such a rock, years"), _("years apart")},
                                 {RETURN_PERIOD_RANGE(ceduo_judged_rate(wooded)), RETURN_PERIOD(ceduo_judged_rate(wooded))},
                                 {RETURN_PERIOD_RANGE(ceduo_judged_rate(bare)), RETURN_PERIOD(ceduo_judged_rate(bare))}});
-    for (enum ceduo_measure_kind what = 0; what < CEDUO_P95_TOP; what++) {
+    for (enum ceduo_fence_share what = 0; ceduo_fence_find(s->bare) && what < CEDUO_FENCE_SHARES; what++)
+        if (lines >= (what == CEDUO_FENCE_DEFEATED ? LOW : FULL))
+            add_figure(page, ceduo_measure_fence(what, wooded), ceduo_measure_fence(what, bare));
+    for (enum ceduo_measure_kind what = 0; what < CEDUO_MEASURE_KINDS; what++) {
         const struct ceduo_measure through = ceduo_measure_figure(what, wooded), without = ceduo_measure_figure(what, bare);
         bool any = through.value > 0 || without.value > 0, mean = what >= CEDUO_MEAN_KJ;
         int from = min_lines[what];
@@ -420,38 +423,6 @@ void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *
     }
 }
 
-/* ---- design values ---- */
-
-/* Factors of speed and energy in UNI 11211-4: 1.02 for a good survey or model, otherwise 1.10. */
-#define FACTOR(good) ((good) ? 1.02 : 1.10)
-
-/* Append design values. No source for a height factor could be obtained: the percentile is printed without one. It is the
- * height of the block's top, because a barrier only as high as the underside stops nothing. */
-void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control)
-{
-    const struct ceduo_result *r = report->result;
-    const struct ceduo_design_values *d = &r->scene->design;
-    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control), *bare = &r->bare.arrivals[control];
-    bool calibrated = ceduo_notes_print(report->file->notes, "calibrated", "slope");
-    double survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD), blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD);
-    double model = FACTOR(calibrated), speed = survey * model, energy = speed * speed * blocks;
-    if (d->survey < 0 || d->blocks < 0 || ceduo_rocks_reached(bare) == 0)
-        return;
-    for (const struct ceduo_arrivals *a = ceduo_rocks_reached(wooded) > 0 ? wooded : bare; a; a = a == bare ? NULL : bare)
-        ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
-                        _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height of the block's top %s m."),
-                        a == bare ? _("without forest") : _("with the forest of this option"),
-                        SIG(ceduo_arrival_distribution(CEDUO_ARRIVAL_SPEED, a)->p95 * speed, 3),
-                        SIG(ceduo_measure_figure(CEDUO_P95_KJ, a).value * energy, 3),
-                        SIG_SHORT(ceduo_measure_figure(CEDUO_P95_TOP, a).value));
-    ceduo_page_para(
-        page, CEDUO_PAGE_DETAIL,
-        _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, %s. Energy: 95th "
-          "percentile times the square of both and %.2f for the survey of the blocks. Height: 95th percentile of the "
-          "block's top (underside plus mean diameter), without a factor."),
-        survey, model, calibrated ? _("fitted to observations") : _("not fitted here"), blocks);
-}
-
 /* ---- option ---- */
 
 void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *r, size_t option)
@@ -474,6 +445,7 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
         add_lights(page, r, i, k);
         if (full && r->bare.rocks > 0)
             ceduo_page_percentiles(page, r, i, k, bare);
+        ceduo_page_fence(page, report, i, k);
         ceduo_page_design(page, report, i, k);
         if (k == 0)
             add_other_forms(page, r->scene, option, &r->options[i]);
@@ -585,6 +557,7 @@ static void add_full_page(struct ceduo_page *page, const struct ceduo_report *re
     ceduo_page_answer(page, report);
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
+    ceduo_page_fence_answer(page, report, false);
     if (scene->options_count > 1) /* shared by all options */
         ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
     for (size_t k = 0; scene->options_count > 1 && k < scene->controls_count; k++) {

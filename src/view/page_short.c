@@ -13,6 +13,7 @@
 #define LINES_SHARED 14 /* lines for several options … */
 #define LINES_OPTION 2  /* … plus lines per option */
 #define LINES_BLOCKS 2  /* … plus lines for frequencies */
+#define LINES_FENCE  4  /* … plus lines for each fence */
 
 /* ---- head ---- */
 
@@ -132,7 +133,10 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     }
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
+    ceduo_page_fence_answer(page, report, true);
     size_t shared = LINES_SHARED + (r->scene->blocks_count > 0 ? LINES_BLOCKS : 0);
+    for (size_t k = 0; k < r->scene->controls_count; k++)
+        shared += ceduo_fence_stands(&r->scene->controls[k].fence) ? LINES_FENCE : 0;
     bool complete = add_notes(page, report, n > 1 ? shared + LINES_OPTION * n : LINES);
     for (size_t i = 0; report->years && !nothing && i < n; i++) { /* requested with --years */
         ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", r->scene->options[i].name);

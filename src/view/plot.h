@@ -58,7 +58,8 @@ struct ceduo_picture {
     X(COMPARE, compare, CEDUO_PICTURE_ALL_OPTIONS_RUN | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))              \
     X(TRADEOFF, tradeoff, CEDUO_PICTURE_ALL_OPTIONS_RUN, N_("Protection and yield of the options, up to %s"))                  \
     X(UNCERTAINTY, uncertainty, CEDUO_PICTURE_PAGE, N_("how sure it is at %s"))                                                \
-    X(HAZARD, hazard, CEDUO_PICTURE_ALL_OPTIONS_RUN, N_("How often, and with how much, at %s"))
+    X(HAZARD, hazard, CEDUO_PICTURE_ALL_OPTIONS_RUN, N_("How often, and with how much, at %s"))                                \
+    X(FENCE, fence, CEDUO_PICTURE_ALL_OPTIONS_RUN, N_("Which class of fence is enough at %s"))
 
 enum ceduo_picture_flag {
     CEDUO_PICTURE_RUN = 1 << 0,         /* requires a run */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Charts of all options with a legend: frequency of energies, and protection against yield. */
+/* Charts of all options with a legend: frequency of energies, classes of fences, and protection against yield. */
 #include <math.h>
 #include <stdio.h>
 
@@ -44,6 +44,26 @@ static void draw_sign(const struct ceduo_drawing *d, double x, double y, bool at
     ceduo_canvas_label(d->canvas, column, row, role, sign);
 }
 
+/* Return the arrivals without forest (item 0) or of option item - 1; NULL: unknown. */
+static const struct ceduo_arrivals *find_arrivals(const struct ceduo_drawing *d, size_t item)
+{
+    const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_find(d->picture->snapshot, d->scene, item - 1);
+    return ceduo_plot_arrivals(run, d->picture->control);
+}
+
+static enum ceduo_role get_role(size_t item)
+{
+    return item == 0 ? CEDUO_ROLE_BARE : CEDUO_ROLE_FOREST;
+}
+
+/* Name an item in the legend. */
+static void draw_name(const struct ceduo_drawing *d, size_t item)
+{
+    if ((int)item < d->legend.height)
+        ceduo_plot_print(d->canvas, d->legend.left, d->legend.top + (int)item, d->legend.width, get_role(item), "%zu %s", item,
+                         item == 0 ? _("without forest") : d->scene->options[item - 1].name);
+}
+
 /* ---- frequency ---- */
 
 /* Return period of exceeding an energy at a control, upwards the more frequent, both axes logarithmic. Curves of the slope
@@ -55,18 +75,10 @@ static void draw_sign(const struct ceduo_drawing *d, double x, double y, bool at
 
 static const struct chart_size hazard_size = {.axis = 8, .below = 1, .legend = 30, .width = 24, .height = 8};
 
-/* Return the hazard without forest (item 0) or of option item - 1; NULL: unknown. */
 static const struct ceduo_hazard *find_hazard(const struct ceduo_drawing *d, size_t item)
 {
-    const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_find(d->picture->snapshot, d->scene, item - 1);
-    const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
-    const struct ceduo_hazard *h = ceduo_hazard_find(a);
+    const struct ceduo_hazard *h = ceduo_hazard_find(find_arrivals(d, item));
     return h && h->curve ? h : NULL;
-}
-
-static enum ceduo_role get_role(size_t item)
-{
-    return item == 0 ? CEDUO_ROLE_BARE : CEDUO_ROLE_FOREST;
 }
 
 /* Return log10; a rate of 0 is below the frame. */
@@ -161,9 +173,50 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
         if (h)
             draw_sign(d, log_kJ(&h->curve->points[point]), logarithm(h->curve->points[point].rate.mean), false, get_role(i),
                       sign);
-        if ((int)i < d->legend.height)
-            ceduo_plot_print(d->canvas, d->legend.left, d->legend.top + (int)i, d->legend.width, get_role(i), "%zu %s", i,
-                             i == 0 ? _("without forest") : d->scene->options[i - 1].name);
+        draw_name(d, i);
+    }
+    return NULL;
+}
+
+/* ---- classes of fences ---- */
+
+/* Rocks of 1000 that defeat a fence of the control's height (y), by its class (x), without forest and for each option. The rule is
+ * the limit. */
+const char *ceduo_plot_fence(struct ceduo_drawing *d)
+{
+    static const struct chart_size size = {.axis = 6, .below = 1, .legend = 30, .width = 24, .height = 6};
+    bool stands = d->control && ceduo_fence_stands(&d->control->fence);
+    size_t items = d->wooded ? d->scene->options_count + 1 : 1;
+    double max = 0;
+    if (!stands || !ceduo_fence_find(d->bare_arrivals))
+        return stands ? _("not computed yet") : _("the control has no 'fence'");
+    if (!set_chart_frame(d, &size, items))
+        return _("too narrow");
+    double limit = 1000 * ceduo_exceed_limit(d->scene, d->control);
+    for (size_t i = 0; i < items; i++) {
+        const struct ceduo_fence_arrivals *f = ceduo_fence_find(find_arrivals(d, i));
+        max = fmax(max, f ? 1000 * f->by_class[0] : 0);
+    }
+    d->frame.x1 = CEDUO_FENCE_CLASSES - 1;
+    d->frame.y1 = 1.1 * fmax(max, fmin(limit, 1000));
+    ceduo_plot_print(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS,
+                     _("of 1000 that defeat a fence of %s m, by its class"), LOCALIZED(d->control->fence.height));
+    ceduo_plot_axes(d, 0, 0, _("class"));
+    if (limit < d->frame.y1)
+        ceduo_canvas_rule_y(d->canvas, &d->frame, CEDUO_ROLE_AXIS, limit);
+    for (size_t i = 0; i < items; i++) {
+        const struct ceduo_fence_arrivals *f = ceduo_fence_find(find_arrivals(d, i));
+        for (size_t k = 0; f && k + 1 < CEDUO_FENCE_CLASSES; k++)
+            ceduo_canvas_line(d->canvas, &d->frame, get_role(i), (double)k, 1000 * f->by_class[k], (double)k + 1,
+                              1000 * f->by_class[k + 1]);
+    }
+    for (size_t i = 0; i < items; i++) { /* signs over all lines */
+        const struct ceduo_fence_arrivals *f = ceduo_fence_find(find_arrivals(d, i));
+        char sign[24];
+        snprintf(sign, sizeof sign, "%zu", i);
+        if (f)
+            draw_sign(d, 0, 1000 * f->by_class[0], true, get_role(i), sign);
+        draw_name(d, i);
     }
     return NULL;
 }

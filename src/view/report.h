@@ -150,10 +150,23 @@ enum ceduo_measure_kind {
     CEDUO_P95_HEIGHT,
     CEDUO_SPEED,
     CEDUO_STEMS_HIT,
-    CEDUO_P95_TOP, /* height of the top of the rock */
     CEDUO_MEASURE_KINDS
 };
 struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind kind, const struct ceduo_arrivals *arrivals);
+
+/* Rocks per 1000 released at the fence of a control: above it, through it, both, either, or held with much energy. */
+enum ceduo_fence_share {
+    CEDUO_FENCE_ABOVE,
+    CEDUO_FENCE_THROUGH,
+    CEDUO_FENCE_BOTH,
+    CEDUO_FENCE_DEFEATED,
+    CEDUO_FENCE_WORN,
+    CEDUO_FENCE_SHARES
+};
+struct ceduo_measure ceduo_measure_fence(enum ceduo_fence_share what, const struct ceduo_arrivals *arrivals);
+
+/* Return the rocks at the fence; NULL without a fence, or if `arrivals` is NULL. */
+const struct ceduo_fence_arrivals *ceduo_fence_find(const struct ceduo_arrivals *arrivals);
 
 /* Return numbers of rocks; 0 if NULL. */
 uint64_t ceduo_rocks_released(const struct ceduo_arrivals *arrivals);
@@ -233,6 +246,27 @@ struct ceduo_subject {
 struct ceduo_subject ceduo_subject_find(const struct ceduo_report *report, size_t option, size_t control);
 /* Collect the results of a year of an option, at the last control. */
 struct ceduo_subject ceduo_subject_find_year(const struct ceduo_report *report, size_t option, const struct ceduo_year *year);
+
+/* Return the years at the fence of a control; NULL if unknown. */
+const struct ceduo_fence_years *ceduo_report_fence_years(const struct ceduo_report *report, size_t option, size_t control);
+
+/* Design values of a fence: of the rocks that arrive, and of forest and fence as one system; worst: in the worst year. */
+enum ceduo_design_kind {
+    CEDUO_DESIGN_BARE,
+    CEDUO_DESIGN_ARRIVING,
+    CEDUO_DESIGN_SYSTEM,
+    CEDUO_DESIGN_WORST_ARRIVING,
+    CEDUO_DESIGN_WORST_SYSTEM,
+    CEDUO_DESIGN_KINDS
+};
+struct ceduo_designs {
+    struct ceduo_fence_factors factors;
+    bool calibrated;                                      /* the model is fitted to observations */
+    struct ceduo_fence_design values[CEDUO_DESIGN_KINDS]; /* NaN and -1: unknown */
+};
+/* Compute the design values at a control. `wooded` may be NULL. False if the scene does not request them. */
+bool ceduo_designs_compute(const struct ceduo_report *report, size_t option, size_t control,
+                           const struct ceduo_arrivals *wooded, struct ceduo_designs *designs);
 
 /* Return the years ahead of an option; NULL if unknown, or if all years are equal. */
 static inline const struct ceduo_choice *ceduo_report_years_ahead(const struct ceduo_report *report, size_t option)

@@ -21,7 +21,7 @@ static void simulate(const struct ceduo_scene *scene, unsigned threads, uint64_t
     struct ceduo_run *run;
     struct ceduo_simulated bare;
     if (ceduo_pool_create(&def, &pool) != CEDUO_OK || ceduo_pool_run(pool, NULL, &run) != CEDUO_OK ||
-        ceduo_run_extend(run, rocks) != CEDUO_OK || ceduo_simulated_read(run, scene->controls_count, &bare) != CEDUO_OK)
+        ceduo_run_extend(run, rocks) != CEDUO_OK || ceduo_simulated_read(run, scene, NULL, &bare) != CEDUO_OK)
         fail("the rotation failed");
     for (size_t i = 0; i < scene->options_count; i++) {
         struct ceduo_years *years;

@@ -24,18 +24,28 @@ HAZARD = {"per_year": NUMBER, "effective_rocks": NUMBER, "reach_per_year": NUMBE
           **{k: MAYBE for k in ("exceed_per_year", "accepted_years", "accepted_years_lo", "accepted_years_hi", "rate_left")},
           "matrix": [{"intensity": TEXT, "from_kJ": NUMBER, "to_kJ": MAYBE, "per_year": NUMBER, "lo": NUMBER, "hi": NUMBER,
                       "rate_left": MAYBE, **{k: FLAG for k in ("to_30_years", "to_100_years", "to_300_years")}}]}
+CHOICE = {"height_m": COUNT, "class": MAYBE, "energy_kJ": MAYBE, "defeated": NUMBER, "decided": FLAG}  # null: no class is enough
+ENOUGH = {"enough": [CHOICE], "smallest": CHOICE}
+FENCED = {**{f"{k}{end}": NUMBER for k in ("over", "through", "both", "defeated", "worn") for end in ("", "_lo", "_hi")},
+          "per_year": MAYBE, "in_life": MAYBE, **ENOUGH}  # null without a fence
+FENCE_WINDOW = {**{k: NUMBER for k in ("mean", "mean_lo", "mean_hi", "worst", "worst_lo", "worst_hi")}, "worst_year": COUNT,
+                "failing_years": COUNT, "per_year": MAYBE, "in_life": MAYBE, **ENOUGH}  # null if all years are equal
+FENCE = {"energy_kJ": NUMBER, "height_m": NUMBER, "life_y": NUMBER, "window": FENCE_WINDOW}
+DESIGN_VALUES = {k: MAYBE for k in ("speed_m_s", "energy_kJ", "height_m", "class", "class_gamma_e")}
+DESIGN = {"factors": {"survey": NUMBER, "model": NUMBER, "blocks": NUMBER, "gamma_e": MAYBE}, "bare": DESIGN_VALUES,
+          "arrivals": DESIGN_VALUES, "system": DESIGN_VALUES, "worst": {"arrivals": DESIGN_VALUES, "system": DESIGN_VALUES}}
 ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER,
             "exceed_probability": MAYBE, "exceed_lo": MAYBE, "exceed_hi": MAYBE, "speed_m_s": SPREAD,
-            "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR, "missed": MISSED,
-            "hazard": HAZARD}  # null without blocks
+            "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR, "fence": FENCED,
+            "missed": MISSED, "hazard": HAZARD}  # null without blocks
 INDEX = {"dissipated_kJ": MAYBE, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL, "measured_kJ": MAYBE}
 WOODED = {**ARRIVALS, "contacts": PAIR}
 OTHER = {"model": TEXT, "rocks": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER, "exceed_probability": MAYBE,
          "exceed_lo": MAYBE, "exceed_hi": MAYBE, "energy_kJ": PAIR,
          "verdict": {"answer": TEXT_OR_NULL}}  # null without stems
 TOPOGRAPHY = {"reach_angle_deg": NUMBER, "shadow_angle_deg": MAYBE}
-CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "topography": TOPOGRAPHY,
-           "bare": ARRIVALS, "index": INDEX, "wooded": WOODED, "other_energy": OTHER,
+CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "fence": FENCE, "topography": TOPOGRAPHY,
+           "bare": ARRIVALS, "index": INDEX, "wooded": WOODED, "other_energy": OTHER, "design": DESIGN,
            "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT, "contact_8cm": LIGHT, "free_run_8cm": LIGHT},
            "verdict": {"answer": TEXT_OR_NULL, "today": TEXT_OR_NULL, "class": MAYBE, "why": TEXT_OR_NULL, "because": TEXT}}
 RULES = ("region", "standards_per_ha", "standards_least", "standards_most", "standards_met", "standards_article", "standards_year",
@@ -93,7 +103,7 @@ def expect_shape(value, shape, path="$"):
         expect(shape or not value, f"{path}: {value!r} is not empty")
         for i, item in enumerate(value):
             expect_shape(item, shape[0], f"{path}[{i}]")
-    elif shape in (STOPS, YIELD, OTHER, HAZARD, RULED, WINDOW) and value is None:
+    elif shape in (STOPS, YIELD, OTHER, HAZARD, RULED, WINDOW, CHOICE, FENCED, FENCE, FENCE_WINDOW, DESIGN) and value is None:
         return
     else:
         expect(isinstance(value, dict), f"{path}: {value!r} is no object")
@@ -109,7 +119,7 @@ def index_shape(shape):
         return NULL
     if isinstance(shape, list):
         return [index_shape(item) for item in shape]
-    special = shape in (INDEX, STOPS, HAZARD, RULED) if isinstance(shape, dict) else True
+    special = shape in (INDEX, STOPS, HAZARD, RULED, CHOICE, FENCED, FENCE, DESIGN) if isinstance(shape, dict) else True
     return shape if special else {key: index_shape(inner) for key, inner in shape.items()}
 
 
@@ -226,15 +236,18 @@ def flat(prefix, shape):
         if key == "hazard":
             names += [f"{prefix}hazard.{cell}" for cell in HAZARD_CELLS]
             continue
+        if key == "enough":
+            names += [f"{prefix}enough[{i}].{cell}" for i in range(7) for cell in CHOICE]
+            continue
         names += flat(f"{prefix}{key}.", inner) if isinstance(inner, dict) else [prefix + key]
     return names
 
 
 SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.mean_diameter_m", "rock.moment_kg_m2",
                "slope.points", "slope.used", "slope.tolerance_m", "threshold_m", "option"]
-CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("topography.", TOPOGRAPHY) +
+CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("fence.", FENCE) + flat("topography.", TOPOGRAPHY) +
                  flat("bare.", ARRIVALS) + flat("index.", INDEX) + flat("wooded.", WOODED) + flat("other_energy.", OTHER) +
-                 ["lights.contact", "lights.free_run", "lights.energy", "lights.contact_8cm", "lights.free_run_8cm",
+                 flat("design.", DESIGN) + ["lights.contact", "lights.free_run", "lights.energy", "lights.contact_8cm", "lights.free_run_8cm",
                   "verdict.answer", "verdict.today", "verdict.because", "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
                  flat("stop_x_m.", STOPS) + flat("difference.", SHAPE_OF_DIFFERENCE) +
                  [f"yield.{k}" for k in YIELD if k != "cuts"] + ["warnings"])

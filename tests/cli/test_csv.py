@@ -28,7 +28,7 @@ def test_csv_controls():
         empty = ("difference.", "wooded.") if model == "index" else ("difference.",)
         for name, cell in rows[0].items():
             group = name.split(".")[0] + "."
-            expect(group not in ("difference.", "wooded.") or ".hazard." in name or (cell == "") == (group in empty), f"{model}: {name}: {cell!r}")
+            expect(group not in ("difference.", "wooded.") or ".hazard." in name or ".fence." in name or (cell == "") == (group in empty), f"{model}: {name}: {cell!r}")
         expect_in("Eq. 6", rows[0]["warnings"], "warnings")
 
 

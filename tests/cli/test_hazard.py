@@ -439,8 +439,8 @@ def test_means():
 
 
 def test_design():
-    """Design values are 95th percentiles times named factors; the model's is 1.02 only for a fitted ground; heights include the
-    top"""
+    """Design values are 95th percentiles times named factors; the model's is 1.02 only for a fitted ground; heights are those of a
+    fence"""
     slope = {"vertices_m": [[0, 100], [150, 0], [200, 0]], "segments": [{"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25}]}
     fitted = {**slope, "segments": [{**slope["segments"][0], "source": {"kind": "calibrated", "text": "20 stops"}}]}
     with Folder() as f:
@@ -450,17 +450,20 @@ def test_design():
             page = " ".join(good(*WHOLE, path).out.split())
             run_of = good("--batch", "-f", "json", path).json()[0]
             control, size = run_of["options"][0]["controls"][1], run_of["rock"]["mean_diameter_m"]
+            design, steep = control["design"], 150 / math.hypot(150, 100) if control["x_m"] <= 150 else 1
             factor = {"good": 1.02, "poor": 1.10}
             model = 1.02 if ground is fitted else 1.10
             way = factor[survey] * model
-            for side, where in (("bare", "without forest"), ("wooded", "with the forest of this option")):
-                expect_in(f"Design values of UNI 11211-4, {where}: speed {control[side]['speed_m_s']['p95'] * way:.1f} m/s, energy "
-                          f"{control[side]['energy_kJ']['p95'] * way ** 2 * factor[blocks]:.0f} kJ, height of "
-                          f"the block's top {control[side]['height_m']['p95'] + size:.2f} m.", page)
-            expect_in(f"Speed: 95th percentile times {factor[survey]:.2f} for the survey of the ground and {model:.2f} for the model, "
-                      f"{'fitted to observations' if ground is fitted else 'not fitted here'}. Energy: 95th percentile times the "
-                      f"square of both and {factor[blocks]:.2f} for the survey of the blocks. Height: 95th percentile of the block's "
-                      "top (underside plus mean diameter), without a factor.", page)
+            expect_equal(design["factors"], {"survey": factor[survey], "model": model, "blocks": factor[blocks], "gamma_e": None})
+            for side, values in (("bare", design["bare"]), ("wooded", design["arrivals"])):
+                expect_near(values["speed_m_s"], control[side]["speed_m_s"]["p95"] * way, 1e-9, side)
+                expect_near(values["energy_kJ"], control[side]["translation_kJ"]["p95"] * way ** 2 * factor[blocks], 1e-9, side)
+                clear = control[side]["height_m"]["p95"] * steep + size / 2
+                expect_near(values["height_m"], max(clear + 0.5, clear + size / 2), 1e-9, side)
+                expect_in(f"{values['speed_m_s']:.3g} {values['energy_kJ']:.3g} ", page)
+            expect_in(f"Speed: times {factor[survey]:.2f} for the survey of the ground and {model:.2f} for the model, "
+                      f"{'fitted to observations' if ground is fitted else 'not fitted here'}. Energy, of translation: times the "
+                      f"square of both and {factor[blocks]:.2f} for the survey of the blocks.", page)
         expect("UNI 11211" not in good(*WHOLE, f.write("t.yaml", slope_site())).out, "design values unasked")
         r = ceduo("--check", f.write("u.yaml", slope_site(design={"survey": "good"})))
         expect_equal(r.status, INPUT, r)
@@ -473,12 +476,12 @@ def test_design_of_sizes():
     volume = (0.05 * (low**-b - high**-b) + high**-b) ** (-1 / b)  # 5 in 100 are larger
     ways = (({"rock": {"diameter_m": {"mean": 0.5, "spread": 0.2, "kind": "uniform"}}}, 0.3 + 0.95 * 0.4),
             ({"rock": {"diameter_m": 0.5}, "blocks": {"per_year": 1, "volume_m3": [low, high], "exponent": b}}, (6 * volume / math.pi) ** (1 / 3)))
-    for what, wanted in ways:
+    for what, size in ways:
         with Folder() as f:
-            page = " ".join(good(*WHOLE, f.write("s.yaml", scene(
+            run_of = good("--batch", "-f", "json", f.write("s.yaml", scene(
                 **what, release={"vx_m_s": 3}, slope={"vertices_m": [[0, 10], [100, 0]], "segments": [{"rn": 0, "rt": 1, "friction": 0}]},
-                controls=[{"x_m": 50}], design={"survey": "good", "blocks": "good"}, simulation={"rocks": 20000}))).out.split())
-        expect_near(float(re.search(r"without forest: .* height of the block's top ([\d.]+) m", page)[1]), wanted, 0.01, what)
+                controls=[{"x_m": 50}], design={"survey": "good", "blocks": "good"}, simulation={"rocks": 20000}))).json()[0]
+        expect_near(run_of["options"][0]["controls"][0]["design"]["bare"]["height_m"], max(size, size / 2 + 0.5), 0.01, what)
 
 
 def test_years():

@@ -20,7 +20,7 @@ KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene
 CORE = {"stand": "", "forest": "stand", "walk": "stand forest", "runs": "stand forest walk"}
 # Room of each public header; a header can include whatever its room can.
 HEADERS = {"base": "flag", "scene": "rock scene slope stand status",
-           "core": "adc alternative_law assess blocks hazard key pool record request result rotation run statistics trajectory variants years yield",
+           "core": "adc alternative_law assess blocks fence hazard key pool record request result rotation run statistics trajectory variants years yield",
            "study": "calibrate uncertainty find naslund observe surface survey", "io": "read", "api": "ceduo handle"}
 SCIENCE = ("scene", "core")  # uses nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
@@ -191,7 +191,7 @@ def structs_without_default():
     return [name for name in structs if not re.search(rf"^struct {name} {name}_default\(", text, re.M)]
 
 
-READS = re.compile(r"(->|\.)((released|reached|exceeded|unfinished|missed|translation|energy_per_released|top_p95|topography|hazard)\b|"
+READS = re.compile(r"(->|\.)((released|reached|exceeded|unfinished|missed|translation|energy_per_released|fence->(above|enough|defeated)|topography|hazard)\b|"
                    r"(energy|speed)\.(mean|se|p\d+)|(reach|exceed)\.(lo|hi))")
 
 

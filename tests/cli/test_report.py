@@ -331,7 +331,7 @@ def test_office():
                      few=("-n", 200, "-s", "uncertainty=none"))
     for place in ("path (100 m)", "road (135 m)"):
         expect(re.search(f"At {re.escape(place)}, with '(selection coppice|large reserves)'", page.text["h3"]), page.text["h3"])
-    expect_equal(page.text["p"].count("Design values of UNI 11211-4"), 4, page.text["p"])
+    expect_equal(page.text["caption"].count("Design values of a fence by UNI 11211-4"), 2, page.text["caption"])
     expect_in("Rules of Toscana", page.text["h2"])
     expect_in("check the text in force", page.text["p"])
     expect_in("art. 22, D.P.G.R. 48/R (2003)", page.text["p"])

@@ -39,10 +39,11 @@ def test_golden():
 
 
 def test_lines():
-    """One screen for one option, 14 lines and 2 per option (16 with blocks), at most 80 wide, in both languages and in ASCII"""
+    """One screen for one option, 14 lines and 2 per option (2 more with blocks, 4 with a fence), at most 80 wide, in both languages and in ASCII"""
     signs = set()  # pages in ASCII: a slow page with uncertainty only for characters that no earlier page had
     for scene in SCENES:
-        options, shared = len(result(scene, "-n", 2)["options"]), 16 if "\nblocks:" in scene.read_text(encoding="utf-8") else 14
+        text = scene.read_text(encoding="utf-8")
+        options, shared = len(result(scene, "-n", 2)["options"]), 14 + 2 * ("\nblocks:" in text) + 4 * (" fence: {" in text)
         whole, few = shipped(scene), ("-n", 20, "-s", "uncertainty=none")
         ascii_of = few if signs >= {c for c in whole if not c.isascii()} else ("-n", ROCKS)
         signs |= set(whole)

@@ -212,11 +212,11 @@ def write_readme():
 
 def test_marks():
     """The page has marked blocks"""
-    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("uncertainty", 2), ("hazard", 2), ("fit", 2),
+    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("uncertainty", 2), ("hazard", 2), ("fence", 2), ("fit", 2),
                        ("page", 3), ("sections", 2), ("scenes", 7), ("valley", 6)):
         expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
     marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
-    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "uncertainty", "hazard", "fit", "page", "sections", "scenes", "valley")
+    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "uncertainty", "hazard", "fence", "fit", "page", "sections", "scenes", "valley")
     expect_equal(len(marks), sum(len(blocks(way)) for way in ways), "marks with a block")
 
 
@@ -549,6 +549,23 @@ def test_hazard():
     expect(385 < int(bare) < 400 and 290 < int(coppice) < 300, "390 to some 300 kJ", bare, coppice)
     expect_in("How often, at 135 m, road", walk.outputs[0])
     expect_in('"rate_left"', walk.read("hazard.json"))
+
+
+def test_fence():
+    """Fence: the smallest fences without forest, today and over the years, the design values of both kinds, the chance"""
+    walk = walked("fence")
+    page = " ".join(walk.outputs[0].split())
+    for text in ("Enough without forest: 3 m of class 2 (500 kJ); with 'coppice with standards': today 3 m of class 1 (250 kJ); over the "
+                 "years 4 m of class 1 (250 kJ), because of years 1–5.", "in 50 years it happens with a chance of 4.1 %"):
+        expect_in(text, page)
+    for row in ("without forest 23.5 388 ", "with forest: arrivals 22.2 421 ", "with forest: one system 21.4 311 "):
+        expect_in(row, page)
+    expect(re.search(r"stopped by stems[^0-9]* 425 ", page), page)
+    selection = page[page.index("selection coppice of beech*"):]
+    expect(re.search(r" 2 m none 1\? \(250 kJ\) 47 2 \(500 kJ\) 30 ", selection), "2 m of class 2 in all years", selection)
+    expect_in("2 selection coppice", walk.outputs[0])
+    rows = list(csv.DictReader(io.StringIO(walk.read("fence.csv"))))
+    expect_equal([(r["bare.fence.smallest.class"], r["fence.window.smallest.class"]) for r in rows], [("2", "1"), ("2", "2")])
 
 
 def test_fit():

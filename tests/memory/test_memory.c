@@ -195,12 +195,13 @@ static bool answer_options(void)
     return is_done(status);
 }
 
-/* Years simulated twice, with the weights of blocks. */
+/* Years simulated twice, with the weights of blocks and a fence. */
 static bool answer_block_years(void)
 {
     static double volumes[] = {0.05, 1};
     struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    site.control.fence = (struct ceduo_fence){.height = 2, .energy = 100e3};
     site.scene.blocks = &blocks;
     site.scene.blocks_count = 1;
     struct ceduo_run_def def = make_def(false);
@@ -214,13 +215,16 @@ static bool answer_block_years(void)
     if (status == CEDUO_OK)
         status = ceduo_pool_simulate(pool, NULL, 40, &run);
     if (status == CEDUO_OK)
-        status = ceduo_simulated_read(run, 1, &bare);
+        status = ceduo_simulated_read(run, &site.scene, NULL, &bare);
     for (uint64_t rocks = 30; rocks <= 40 && status == CEDUO_OK; rocks += 10)
         status = ceduo_years_simulate(years, pool, &bare, rocks);
     if (status == CEDUO_OK) {
         struct ceduo_years_summary s = ceduo_years_summarize(years, 0);
         assert_true(s.exceed.se > 0);
         add(&s.exceed, sizeof s.exceed);
+        const struct ceduo_fence_years f = ceduo_years_fence(years, 0, &years->years[0].wooded.arrivals[0]);
+        assert_true(f.mean.mean == f.worst.mean); /* one year */
+        add(&f.mean.mean, sizeof f.mean.mean);
     }
     return is_done(status);
 }

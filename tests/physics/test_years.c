@@ -98,7 +98,7 @@ static struct ceduo_simulated simulate_bare(uint64_t rocks)
 {
     LOCAL(ceduo_run, run) = run_option(&wood.site.scene, NULL, rocks, 1);
     struct ceduo_simulated bare;
-    assert_int_equal(ceduo_simulated_read(run, CONTROLS, &bare), CEDUO_OK);
+    assert_int_equal(ceduo_simulated_read(run, &wood.site.scene, NULL, &bare), CEDUO_OK);
     return bare;
 }
 
@@ -200,7 +200,7 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
     struct ceduo_option option = {.belts_count = BELTS, .belts = belts};
     LOCAL(ceduo_run, run) = run_option(&wood.site.scene, &option, ROCKS, 1);
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated direct;
-    assert_int_equal(ceduo_simulated_read(run, CONTROLS, &direct), CEDUO_OK);
+    assert_int_equal(ceduo_simulated_read(run, &wood.site.scene, NULL, &direct), CEDUO_OK);
     EXPECT(y->wooded.rocks, ==, ROCKS);
     EXPECT(direct.rocks, ==, ROCKS);
     expect_same_ends(&y->wooded.ends, &direct.ends);

@@ -494,7 +494,7 @@ TEST_WOODED(pictures_can_be_drawn_on_another_surface)
         free(words);
         ceduo_cells_free(cells);
         bool computed = plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && plot != CEDUO_PLOT_UNCERTAINTY &&
-                        plot != CEDUO_PLOT_HAZARD;
+                        plot != CEDUO_PLOT_HAZARD && plot != CEDUO_PLOT_FENCE;
         if (computed && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
             fail_msg("%s: %d lines, %d bars, %d axes", ceduo_plot_kinds[plot].name, page.lines, page.bars, page.axes);
         if (plot == CEDUO_PLOT_PROFILE && page.trajectories == 0)
@@ -540,6 +540,7 @@ TEST_BARE(titles_describe_the_picture)
         {"Protection and yield of the options, up to path (40 m)", ""},
         {"kept: how sure it is at path (40 m)", ""},
         {"How often, and with how much, at path (40 m)", ""},
+        {"Which class of fence is enough at path (40 m)", ""},
     };
     for (int i = 0; i < 2 * (CEDUO_PLOTS - 1); i++) {
         int plot = CEDUO_PLOT_PROFILE + i / 2;

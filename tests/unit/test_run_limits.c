@@ -237,7 +237,7 @@ TEST(years_before_they_are_flown)
     LOCAL(ceduo_run, run) = make_run(&def, 20);
     LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare;
     LOCAL(ceduo_years, years);
-    assert_int_equal(ceduo_simulated_read(run, 1, &bare), CEDUO_OK);
+    assert_int_equal(ceduo_simulated_read(run, &site.scene, NULL, &bare), CEDUO_OK);
     assert_int_equal(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 3, .step = 1}, &years),
                      CEDUO_OK);
     ceduo_years_assess(years, &site.scene, &bare);

@@ -48,11 +48,13 @@ static void check_scene(const char *path)
     assert_int_equal(ceduo_simulate_request(&question, NULL, &answer), CEDUO_OK);
     assert_int_equal(ceduo_compare_options(answer.result, answer.years, NULL, &verdict), CEDUO_OK);
     const struct ceduo_report report = {.file = &file, .result = answer.result, .verdict = &verdict};
-    size_t options = file.scene.options_count;
+    size_t options = file.scene.options_count, shared = file.scene.blocks_count > 0 ? 16 : 14;
+    for (size_t k = 0; k < file.scene.controls_count; k++)
+        shared += ceduo_fence_stands(&file.scene.controls[k].fence) ? 4 : 0;
     for (size_t width = WIDTH_MIN; width <= WIDTH_MAX; width++) {
         struct ceduo_page page = {.width = width};
         ceduo_page_short(&page, &report);
-        check_page(path, &page, options > 1 ? (file.scene.blocks_count > 0 ? 16 : 14) + 2 * options : 24);
+        check_page(path, &page, options > 1 ? shared + 2 * options : 24);
         ceduo_page_free(&page);
     }
     ceduo_problems_free(&problems);

@@ -84,6 +84,18 @@ uint64_t ceduo_scene_key(const struct ceduo_scene *original)
     return key;
 }
 
+uint64_t ceduo_fence_key(const struct ceduo_scene *scene)
+{
+    uint64_t key = HASH_START;
+    for (size_t i = 0; i < scene->controls_count; i++) {
+        const struct ceduo_fence *f = &scene->controls[i].fence;
+        const double parts[] = {f->height, f->energy, f->life};
+        hash_doubles(&key, parts, 3);
+    }
+    hash_count(&key, ceduo_design_is_requested(&scene->design));
+    return key;
+}
+
 uint64_t ceduo_option_key(const struct ceduo_scene *scene, const struct ceduo_option *option)
 {
     uint64_t key = HASH_START;

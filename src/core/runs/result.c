@@ -9,24 +9,34 @@
 
 /* ---- results of a run ---- */
 
-static bool allocate_simulated(struct ceduo_simulated *f, size_t controls, bool curves)
+static bool allocate_simulated(struct ceduo_simulated *f, size_t controls, bool curves, bool fences)
 {
     *f = (struct ceduo_simulated){.controls = controls, .arrivals = calloc(controls + 1, sizeof *f->arrivals)};
     f->curves = f->arrivals && curves ? calloc(controls + 1, sizeof *f->curves) : NULL;
-    if (f->arrivals && (f->curves || !curves))
+    f->fences = f->arrivals && fences ? calloc(controls + 1, sizeof *f->fences) : NULL;
+    if (f->arrivals && (f->curves || !curves) && (f->fences || !fences))
         return true;
     ceduo_simulated_free(f);
     return false;
 }
 
-enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *f)
+enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, const struct ceduo_scene *scene,
+                                       const struct ceduo_simulated *bare, struct ceduo_simulated *f)
 {
-    if (!allocate_simulated(f, controls, ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT)))
+    size_t controls = scene->controls_count;
+    bool fences = ceduo_design_is_requested(&scene->design);
+    for (size_t c = 0; c < controls; c++)
+        fences |= ceduo_fence_stands(&scene->controls[c].fence);
+    if (!allocate_simulated(f, controls, ceduo_run_samples(run, 0, CEDUO_SAMPLE_WEIGHT), fences))
         return CEDUO_NO_MEMORY;
     f->rocks = ceduo_run_rocks(run);
     enum ceduo_status status = ceduo_run_ends(run, &f->ends);
-    for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
+    for (size_t c = 0; c < controls && status == CEDUO_OK; c++) {
         status = ceduo_run_hazard(run, c, &f->arrivals[c], f->curves ? &f->curves[c] : NULL);
+        if (status == CEDUO_OK && fences)
+            status = ceduo_run_fence(run, scene, c, bare ? &bare->arrivals[c] : NULL, &f->fences[c]);
+        f->arrivals[c].fence = fences ? &f->fences[c] : NULL;
+    }
     if (status != CEDUO_OK)
         ceduo_simulated_free(f);
     return status;
@@ -34,7 +44,7 @@ enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t contr
 
 static enum ceduo_status copy_simulated(const struct ceduo_simulated *from, struct ceduo_simulated *to)
 {
-    if (!allocate_simulated(to, from->controls, from->curves))
+    if (!allocate_simulated(to, from->controls, from->curves, from->fences))
         return CEDUO_NO_MEMORY;
     to->rocks = from->rocks;
     to->ends = from->ends;
@@ -42,7 +52,10 @@ static enum ceduo_status copy_simulated(const struct ceduo_simulated *from, stru
         to->arrivals[c] = from->arrivals[c];
         if (from->curves)
             to->curves[c] = from->curves[c];
+        if (from->fences)
+            to->fences[c] = from->fences[c];
         to->arrivals[c].hazard.curve = from->curves ? &to->curves[c] : NULL;
+        to->arrivals[c].fence = from->fences ? &to->fences[c] : NULL;
     }
     return CEDUO_OK;
 }
@@ -51,6 +64,7 @@ void ceduo_simulated_free(struct ceduo_simulated *f)
 {
     free(f->arrivals);
     free(f->curves);
+    free(f->fences);
     *f = (struct ceduo_simulated){0};
 }
 
@@ -177,8 +191,8 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
     *result = NULL;
     if (!r)
         return CEDUO_NO_MEMORY;
-    enum ceduo_status status = bare ? ceduo_simulated_read(bare, controls, &r->bare) : CEDUO_OK;
-    if (!bare && !allocate_simulated(&r->bare, controls, false))
+    enum ceduo_status status = bare ? ceduo_simulated_read(bare, scene, NULL, &r->bare) : CEDUO_OK;
+    if (!bare && !allocate_simulated(&r->bare, controls, false, false))
         status = CEDUO_NO_MEMORY;
     for (size_t c = 0; !bare && status == CEDUO_OK && c < controls; c++) { /* missing run: NaN */
         r->bare.arrivals[c].energy = ceduo_distribution_none();
@@ -190,7 +204,7 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
             r->options[i].differences[c] = ceduo_run_difference(run, baseline, c);
         if (run) /* an option without stems has the run without forest */
             status = run == bare ? copy_simulated(&r->bare, &r->options[i].wooded)
-                                 : ceduo_simulated_read(run, controls, &r->options[i].wooded);
+                                 : ceduo_simulated_read(run, scene, &r->bare, &r->options[i].wooded);
     }
     struct ceduo_scene alt = {0}; /* with the other energy law */
     if (r->wooded && status == CEDUO_OK && !ceduo_alternative_scene(scene, &alt))

@@ -5,15 +5,9 @@
 
 #include "run_state.h"
 
-/* Return a share of n rocks; the upper limit counts unfinished rocks as hits. */
-static struct ceduo_estimate make_share(uint64_t hits, uint64_t unfinished, uint64_t n)
-{
-    return ceduo_wilson((double)hits / (double)n, (double)(hits + unfinished) / (double)n, (double)n);
-}
-
 /* ---- rocks with weights ---- */
 
-static struct weight_totals sum_released(const struct ceduo_run *run, double missing)
+struct weight_totals ceduo_run_weight_totals(const struct ceduo_run *run, double missing)
 {
     struct weight_totals totals = {.n = (double)run->rocks, .per_year = run->prepared.sizes.per_year, .missing = missing};
     for (uint64_t r = 0; r < run->rocks; r++) {
@@ -52,11 +46,6 @@ static void bound_energies(const struct ceduo_run *run, struct weighted *max_ene
     ceduo_weighted_bound(max_energies, (size_t)run->rocks);
 }
 
-static double get_weight(const struct ceduo_run *run, uint64_t rock)
-{
-    return run->weighted ? run->weights[rock] : 1;
-}
-
 /* Gather the values of a column that are not NaN, with the weights of their rocks. */
 static size_t gather_weighted(const struct ceduo_run *run, const double *column, struct weighted *to)
 {
@@ -67,36 +56,11 @@ static size_t gather_weighted(const struct ceduo_run *run, const double *column,
     return n;
 }
 
-/* Return the height of the top of a rock. The rock was drawn for the run, so it can be drawn again. */
-static double compute_top(const struct ceduo_run *run, uint64_t number, double height)
-{
-    struct ceduo_rock rock = {0};
-    ceduo_prepared_rock(&run->prepared, number, &rock);
-    return height + rock.mean_diameter;
-}
-
-/* Return the 95th percentile of the heights of the tops of the rocks that arrive; NaN without design values. */
-static double top_p95(const struct ceduo_run *run, size_t control, double height_p95, struct weighted *scratch)
-{
-    const struct ceduo_scene *scene = &run->prepared.scene;
-    const double *height = get_samples(run, control, HEIGHT);
-    size_t n = 0;
-    if (scene->design.survey < 0 || (scene->design.blocks < 0 && !run->weighted))
-        return NAN;
-    if (!run->weighted && !ceduo_scene_rock_varies(scene))
-        return height_p95 + run->prepared.mean.mean_diameter;
-    for (uint64_t r = 0; r < run->rocks; r++)
-        if (!isnan(height[r]))
-            scratch[n++] = (struct weighted){compute_top(run, r, height[r]), get_weight(run, r)};
-    ceduo_weighted_sort(scratch, n);
-    return ceduo_weighted_quantile(scratch, n, 0.95);
-}
-
 /* Read arrivals from the samples, in the order of the rocks, and from the sums of weights per end. */
 static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t control, const struct sums *s,
                                        struct ceduo_arrivals *a, struct ceduo_hazard_curve *curve)
 {
-    struct weight_totals totals = sum_released(run, s->end_weights[CEDUO_UNFINISHED]);
+    struct weight_totals totals = ceduo_run_weight_totals(run, s->end_weights[CEDUO_UNFINISHED]);
     const double accepted = run->prepared.scene.controls[control].accepted;
     struct ceduo_distribution *const to[QUANTITIES] = {
         [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
@@ -111,7 +75,6 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
         a->missed[e] = s->end_weights[e] / totals.w;
     for (int q = 0; q < QUANTITIES; q++)
         *to[q] = ceduo_weighted_distribution(&totals, values, gather_weighted(run, get_samples(run, control, q), values));
-    a->top_p95 = top_p95(run, control, a->height.p95, values);
     size_t n = gather_weighted(run, get_samples(run, control, ENERGY), values);
     bool good = ceduo_hazard_read(&totals, values, n, accepted, &a->hazard, curve); /* sorts `values` */
     a->hazard.accepted_return = isnan(accepted) ? NAN : ceduo_accepted_return(&run->prepared.scene.controls[control]);
@@ -189,9 +152,9 @@ enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, 
         return read_weighted(run, control, &s, a, curve);
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = (double)s.end_counts[e] / (double)run->rocks;
-    a->reach = make_share(a->reached, a->unfinished, run->rocks);
+    a->reach = ceduo_run_share(a->reached, a->unfinished, run->rocks);
     if (!isnan(run->prepared.scene.controls[control].accepted))
-        a->exceed = make_share(a->exceeded, a->unfinished, run->rocks);
+        a->exceed = ceduo_run_share(a->exceeded, a->unfinished, run->rocks);
     const struct ceduo_moments *energy = &s.moments[ENERGY]; /* over all released rocks; rocks that do not arrive count as 0 */
     double n = (double)run->rocks, arrived = (double)energy->n / n;
     double m2 = energy->m2 + energy->mean * energy->mean * (double)energy->n * (1 - arrived);
@@ -222,7 +185,6 @@ enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, 
         d.max = energy->n > 0 ? energy->max : NAN;
         a->energy = a->translation = d;
     }
-    a->top_p95 = top_p95(run, control, a->height.p95, scratch);
     free(scratch);
     return CEDUO_OK;
 }
@@ -242,9 +204,12 @@ void ceduo_run_group_means(const struct ceduo_run *run, size_t control, size_t g
         }
         briefs[g] = (struct ceduo_group_means){.reach_probability = reached / total,
                                                .exceed_probability = isnan(accepted) ? NAN : exceeded / total,
+                                               .defeated_probability = NAN,
                                                .energy = reached > 0 ? sum / reached : NAN,
                                                .energy_per_released = sum / total};
     }
+    if (energies && ceduo_fence_stands(&run->prepared.scene.controls[control].fence))
+        ceduo_run_group_defeats(run, control, groups, briefs);
 }
 
 struct ceduo_estimate ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached)
@@ -258,7 +223,7 @@ struct ceduo_estimate ceduo_run_energy(const struct ceduo_run *run, size_t contr
     struct ceduo_estimate energy = {m->n > 0 ? m->mean : NAN, ceduo_moments_se(m), NAN, NAN};
     if (!run->weighted || m->n == 0)
         return energy;
-    const struct weight_totals totals = sum_released(run, 0);
+    const struct weight_totals totals = ceduo_run_weight_totals(run, 0);
     const double *energies = get_samples(run, control, ENERGY);
     struct weighted_sum ones = {0}, sum = {0}, deviations = {0};
     for (uint64_t r = 0; r < run->rocks; r++) {
@@ -314,7 +279,7 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
             else
                 ceduo_moments_add(&moments[k], differences[k]);
     }
-    const struct weight_totals totals = run->weighted ? sum_released(shorter, 0) : (struct weight_totals){0};
+    const struct weight_totals totals = run->weighted ? ceduo_run_weight_totals(shorter, 0) : (struct weight_totals){0};
     double means[3] = {moments[0].mean, moments[1].mean, moments[2].mean};
     if (equal_length && !run->weighted)
         set_means(run, baseline, control, means);
@@ -332,7 +297,7 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
     *ends = (struct ceduo_ends){.stop_p50 = NAN, .stop_p95 = NAN, .stop_max = NAN};
     if (run->def.arrivals_only)
         return CEDUO_OK;
-    const struct weight_totals totals = run->weighted ? sum_released(run, 0) : (struct weight_totals){0};
+    const struct weight_totals totals = run->weighted ? ceduo_run_weight_totals(run, 0) : (struct weight_totals){0};
     ends->stop_x = run->complete.stop_x;
     ends->uphill = run->complete.uphill + run->tail.uphill;
     ends->early = run->complete.early + run->tail.early;

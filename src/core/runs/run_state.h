@@ -12,7 +12,8 @@
  *     run.c          creates, extends and frees a run, chunk by chunk
  *     run_simulate.c simulates the rocks of one chunk on several threads
  *     run_samples.c  sums of a batch, merged in order; samples of each rock
- *     run_read.c     arrivals, differences and ends, from sums and samples; with weights only from samples */
+ *     run_read.c     arrivals, differences and ends, from sums and samples; with weights only from samples
+ *     run_fence.c    arrivals at a fence, from samples */
 
 #ifndef CHUNK_BATCHES
 #define CHUNK_BATCHES 256 /* maximum batches per chunk; bounds the memory of their sums */
@@ -72,6 +73,11 @@ static inline double *get_stops(const struct ceduo_run *run)
     return run->samples ? run->samples[run->columns - 1] : NULL;
 }
 
+static inline double get_weight(const struct ceduo_run *run, uint64_t rock)
+{
+    return run->weighted ? run->weights[rock] : 1;
+}
+
 /* ---- sums ---- */
 
 bool ceduo_run_batch_init(struct batch *b, size_t controls); /* false without memory */
@@ -79,6 +85,18 @@ void ceduo_run_batch_clear(struct batch *b, size_t controls);
 void ceduo_run_batch_merge(struct batch *into, const struct batch *from, size_t controls);
 /* Return the sums over all rocks of the run. */
 struct sums ceduo_run_sums_at(const struct ceduo_run *run, size_t control);
+
+/* Return the totals of all released rocks of a run with weights. `missing`: weight of unfinished rocks. */
+struct weight_totals ceduo_run_weight_totals(const struct ceduo_run *run, double missing);
+
+/* Return a share of n rocks; the upper limit counts unfinished rocks as hits. */
+static inline struct ceduo_estimate ceduo_run_share(uint64_t hits, uint64_t unfinished, uint64_t n)
+{
+    return ceduo_wilson((double)hits / (double)n, (double)(hits + unfinished) / (double)n, (double)n);
+}
+
+/* Set the defeated shares of the groups of ceduo_run_group_means(). Requires a fence at the control. */
+void ceduo_run_group_defeats(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_group_means *briefs);
 
 /* ---- samples ---- */
 

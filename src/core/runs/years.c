@@ -213,7 +213,7 @@ static enum ceduo_status add_year(void *context, size_t i, struct ceduo_run *run
     struct ceduo_year *y = &years->years[i];
     (void)rocks;
     ceduo_simulated_free(&y->wooded);
-    enum ceduo_status status = ceduo_simulated_read(run, years->scene.controls_count, &y->wooded);
+    enum ceduo_status status = ceduo_simulated_read(run, &years->scene, r->bare, &y->wooded);
     if (status != CEDUO_OK)
         return status;
     ceduo_simulated_set_no_contacts(&y->wooded);
@@ -386,6 +386,57 @@ struct ceduo_years_summary ceduo_years_summarize(const struct ceduo_years *years
     }
     s.passes_per_year = s.reach.mean * years->scene.rocks_per_year;
     s.exceeds_per_year = s.exceed.mean * years->scene.rocks_per_year;
+    return s;
+}
+
+static void widen_load(struct ceduo_fence_load *load, const struct ceduo_fence_load *other_load)
+{
+    load->speed = fmax(load->speed, other_load->speed);
+    load->energy = fmax(load->energy, other_load->energy);
+    load->top = fmax(load->top, other_load->top);
+    load->middle = fmax(load->middle, other_load->middle);
+}
+
+struct ceduo_fence_years ceduo_years_fence(const struct ceduo_years *years, size_t control, const struct ceduo_arrivals *today)
+{
+    const struct ceduo_fence_arrivals none = ceduo_fence_none(), *now = today->fence ? today->fence : &none;
+    const struct ceduo_fence_choice *choice = ceduo_fence_smallest(now->enough);
+    struct ceduo_fence_grid all = now->grid;
+    struct ceduo_fence_years s = {.worst = CEDUO_NO_ESTIMATE, .arriving = none.arriving, .system = none.system};
+    double per_year = 0;
+    for (size_t i = 0; i < years->count; i++) {
+        const struct ceduo_year *y = &years->years[i];
+        if (y->wooded.rocks == 0 || !y->wooded.fences)
+            continue;
+        const struct ceduo_fence_arrivals *f = &y->wooded.fences[control];
+        s.years++;
+        widen_load(&s.arriving, &f->arriving);
+        widen_load(&s.system, &f->system);
+        s.mean.mean += f->defeated.mean;
+        s.mean.lo += f->defeated.lo;
+        s.mean.hi += f->defeated.hi;
+        per_year += f->per_year;
+        s.failing += f->defeated.mean > y->wooded.arrivals[control].limit;
+        if (!(f->defeated.mean <= s.worst.mean)) {
+            s.worst = f->defeated;
+            s.worst_year = y->year;
+        }
+        for (size_t h = 0; h < CEDUO_FENCE_HEIGHTS; h++) {
+            for (size_t k = 0; k < CEDUO_FENCE_CLASSES; k++)
+                if (f->grid.defeated[h][k].mean > all.defeated[h][k].mean)
+                    all.defeated[h][k] = f->grid.defeated[h][k];
+            all.energy[h] = fmax(all.energy[h], f->grid.energy[h]);
+        }
+        if (choice && f->enough[choice - now->enough].class_index > choice->class_index) {
+            s.first_exception = s.exceptions++ == 0 ? y->year : s.first_exception;
+            s.last_exception = y->year;
+        }
+    }
+    double n = (double)s.years;
+    s.mean = (struct ceduo_estimate){s.mean.mean / n, NAN, s.mean.lo / n, s.mean.hi / n}; /* NaN without years */
+    s.per_year = per_year / n;
+    s.in_life = -expm1(-s.per_year * ceduo_fence_life(&years->scene.controls[control].fence));
+    ceduo_fence_choose(&all, ceduo_exceed_limit(&years->scene, &years->scene.controls[control]), s.enough);
     return s;
 }
 
