@@ -248,9 +248,9 @@ SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.m
 CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("fence.", FENCE) + flat("topography.", TOPOGRAPHY) +
                  flat("bare.", ARRIVALS) + flat("index.", INDEX) + flat("wooded.", WOODED) + flat("other_energy.", OTHER) +
                  flat("design.", DESIGN) + ["lights.contact", "lights.free_run", "lights.energy", "lights.contact_8cm", "lights.free_run_8cm",
-                  "verdict.answer", "verdict.today", "verdict.because", "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
+                  "verdict.answer", "verdict.today", "verdict.class", "verdict.why", "verdict.because", "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
                  flat("stop_x_m.", STOPS) + flat("difference.", SHAPE_OF_DIFFERENCE) +
-                 [f"yield.{k}" for k in YIELD if k != "cuts"] + ["warnings"])
+                 [f"yield.{k}" for k in YIELD if k != "cuts"] + ["warnings", "worst.year", "worst.exceed", "uncertainty.p5", "uncertainty.p95", "version"])
 STAND_CELLS = (SCENE_CELLS + [n for n in flat("", STAND) if n != "warnings"] + ["warnings"])
 
 
@@ -307,6 +307,12 @@ def expect_rows(rows, runs, inner):
                 value = find_value(found[0], name.removeprefix("difference.")) if found else None
             elif name.split(".")[0] in ("summary", "ends", "stop_x_m", "yield"):
                 value = find_value(option, name)
+            elif name == "version":
+                value = run["version"]
+            elif name.startswith("worst."):  # the window of JSON is that of the last control
+                if item["x_m"] < max(c["x_m"] for c in option["controls"]):
+                    continue
+                value = find_value(option, {"worst.year": "window.worst_year", "worst.exceed": "window.worst"}[name])
             else:
                 value = find_value(item, name)
             expect_cell(cell, value, f"{option['name']} {name}")
