@@ -40,7 +40,6 @@ static void build_slope(struct app *app, struct form *form)
                                                           : "x_m name accepted_kJ measured_speed_m_s");
     else
         ceduo_form_field(form, "controls_m", NULL);
-    build_fences(app, form);
     ceduo_form_heading(form, _("Ground"));
     ceduo_form_field(form, "slope.facets", NULL);
     if (d->file.scene.slope.reversed)
@@ -60,6 +59,7 @@ static void build_slope(struct app *app, struct form *form)
         ceduo_words_points(&points, &d->file.scene.slope);
         ceduo_form_note(form, ceduo_app_format(app, _("o: %s"), ceduo_text_string(&points)));
     }
+    build_fences(app, form);
     if (!vertices) {
         ceduo_form_heading(form, _("Profile: from a CSV file"));
         ceduo_form_field(form, "slope.csv", NULL);
@@ -323,7 +323,7 @@ static void draw_slope(struct app *app, struct ceduo_area area)
         picture.from = fmin(fmax(0, mark - shown / 2), slope_length(app) - shown);
         picture.to = picture.from + shown;
     }
-    ceduo_app_draw_form(app, cut_bottom(&area, picture_only ? 0 : area.height / 3 + 1));
+    ceduo_app_draw_form(app, cut_bottom(&area, picture_only ? 0 : area.height > 45 ? 4 * area.height / 9 : area.height / 3 + 1));
     struct ceduo_area whole = area;
     bool has_cursor = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: use all rows for the slope at true scale */
     int rows = area.height + !picture_only,

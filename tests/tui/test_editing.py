@@ -152,12 +152,12 @@ def test_control_edit():
         dump
         wait idle
         dump
-        find controls[0]
+        find controls[0].x_m
         key a
         dump
         wait idle
         dump
-        find controls[0]
+        find controls[0].x_m
         set 50
         dump
         wait idle

@@ -252,7 +252,7 @@ def test_save_as_exists():
         screens[0].has("a name is needed")
         screens[1].has("No such file or directory")
         screens[2].has("Enter again replaces it")
-        expect("* Test" in screens[3].title, screens[3].title)
+        expect("* paper-site" in screens[3].title, screens[3].title)
         expect_equal(place.text("there.yaml"), "mine\n", "the other file")
         place.play("key 2\nfind stools.per_ha\nset 2000\nkey s Enter Ctrl-U\ntype there.yaml\nkey Enter Enter", "paper-site")
         check_good(place.path, "there.yaml")

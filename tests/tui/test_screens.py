@@ -266,7 +266,7 @@ Shoots on the stools
 Single trees: standards, reserves
 1   750      6.1      6        0.0107   0"""
 GOLDEN_ROCK = """\
-2/36 ▼
+2/37 ▼
 Rock
 shape                cylinder
 diameter, m          0.56
