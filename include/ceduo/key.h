@@ -11,8 +11,9 @@
 /* Return the hash of all but the forest: rock, release, slope, controls, law, seed, gravity. */
 uint64_t ceduo_scene_key(const struct ceduo_scene *scene);
 
-/* Return the hash of fences and of the request for design values. They change no trajectory, but figures read from a run. */
-uint64_t ceduo_fence_key(const struct ceduo_scene *scene);
+/* Return the hash of fences, accepted return periods and the request for design values. They change no trajectory, but figures
+ * read from a run. */
+uint64_t ceduo_controls_key(const struct ceduo_scene *scene);
 
 /* Return the hash of the forest of an option as rocks meet it by the scene's contact model. 0 without contacts: no option, no
  * stems, or the model `index`. */

@@ -16,8 +16,8 @@ struct ceduo_simulated {
     struct ceduo_ends ends;
 };
 
-/* Read a run of a scene, which may differ from that of the run in its fences and design values. `bare`: results without forest;
- * NULL: the run is without forest. Return CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
+/* Read a run of a scene, which may differ from that of the run in fences, design values and return periods. `bare`: results
+ * without forest; NULL: the run is without forest. Return CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
 enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, const struct ceduo_scene *scene,
                                        const struct ceduo_simulated *bare, struct ceduo_simulated *simulated);
 /* Set unknown contacts to 0, for a forest without stems. */

@@ -457,7 +457,7 @@ void ceduo_jobs_free(struct jobs *q)
 uint64_t ceduo_jobs_key(const struct ceduo_scene *scene)
 {
     uint64_t key = ceduo_scene_key(scene);
-    hash_count(&key, ceduo_fence_key(scene));
+    hash_count(&key, ceduo_controls_key(scene));
     for (size_t i = 0; i < scene->options_count; i++)
         hash_count(&key, ceduo_option_key(scene, &scene->options[i]));
     hash_count(&key, (uint64_t)scene->simulation.contact_model);

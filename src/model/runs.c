@@ -143,7 +143,7 @@ uint64_t ceduo_runs_years_key(const struct ceduo_scene *scene, size_t option)
 {
     struct ceduo_window w = ceduo_scene_window(scene);
     uint64_t key = ceduo_scene_key(scene);
-    const uint64_t parts[] = {ceduo_fence_key(scene),
+    const uint64_t parts[] = {ceduo_controls_key(scene),
                               ceduo_years_key(&scene->options[option]),
                               w.kind,
                               w.first,

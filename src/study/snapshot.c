@@ -194,7 +194,7 @@ static enum ceduo_status reference_run_snapshot(const struct ceduo_snapshot_def 
     uint64_t key = ceduo_option_key(def->scene, option), rocks = ceduo_run_rocks(run);
     struct ceduo_run_snapshot *s = find_run_snapshot(o, key);
     s = s ? s : find_run_snapshot(def->last, key);
-    if (s && s->simulated.rocks == rocks && s->fence_key == ceduo_fence_key(def->scene)) {
+    if (s && s->simulated.rocks == rocks && s->fence_key == ceduo_controls_key(def->scene)) {
         atomic_fetch_add(&s->references, 1);
         *found = s;
         return CEDUO_OK;
@@ -204,7 +204,7 @@ static enum ceduo_status reference_run_snapshot(const struct ceduo_snapshot_def 
         return CEDUO_NO_MEMORY;
     atomic_init(&s->references, 1);
     s->key = key;
-    s->fence_key = ceduo_fence_key(def->scene);
+    s->fence_key = ceduo_controls_key(def->scene);
     enum ceduo_status status = read_run_snapshot(def, o, option, run, s);
     if (status == CEDUO_OK)
         *found = s;

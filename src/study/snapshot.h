@@ -30,7 +30,7 @@ struct ceduo_run_snapshot {
     atomic_uint references;
     struct arena memory;
     uint64_t key;       /* ceduo_option_key() of its forest */
-    uint64_t fence_key; /* ceduo_fence_key() of its scene */
+    uint64_t fence_key; /* ceduo_controls_key() of its scene */
     struct ceduo_simulated simulated;
     uint64_t envelope_rocks;          /* rocks of the envelopes */
     struct ceduo_envelope *envelopes; /* one for each cell */

@@ -25,6 +25,15 @@ simulation: {law: lumped}
 """
 
 
+def test_return_period():
+    """An edit of the accepted return period changes the judgement of today at once, as the page has it"""
+    with Place() as place:
+        rare, often = place.play("resize 110 40\nwait idle\nfind controls[0].accepted_return_y\nset 5000\nwait idle\ndump\nset 1\n"
+                                 "wait idle\ndump", "blocks-above-the-road")
+    expect(rare.lines[1].startswith(" ✘ NO: more than 50 kJ every"), rare.lines[1])
+    expect(often.lines[1].startswith(" ✔ YES, also without forest"), often.lines[1])
+
+
 def beaten(screen):
     """Return the rocks of 1000 that defeat the fence, with forest and without; None without a fence."""
     row = re.search(r"fence beaten +(\d+)\S*(?: \([^)]*\))? +(\d+)", screen.text)

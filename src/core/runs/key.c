@@ -84,13 +84,13 @@ uint64_t ceduo_scene_key(const struct ceduo_scene *original)
     return key;
 }
 
-uint64_t ceduo_fence_key(const struct ceduo_scene *scene)
+uint64_t ceduo_controls_key(const struct ceduo_scene *scene)
 {
     uint64_t key = HASH_START;
     for (size_t i = 0; i < scene->controls_count; i++) {
-        const struct ceduo_fence *f = &scene->controls[i].fence;
-        const double parts[] = {f->height, f->energy, f->life};
-        hash_doubles(&key, parts, 3);
+        const struct ceduo_control *c = &scene->controls[i];
+        const double parts[] = {c->fence.height, c->fence.energy, c->fence.life, ceduo_accepted_return(c)};
+        hash_doubles(&key, parts, sizeof parts / sizeof parts[0]);
     }
     hash_count(&key, ceduo_design_is_requested(&scene->design));
     return key;

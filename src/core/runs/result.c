@@ -32,10 +32,14 @@ enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, const struct
     f->rocks = ceduo_run_rocks(run);
     enum ceduo_status status = ceduo_run_ends(run, &f->ends);
     for (size_t c = 0; c < controls && status == CEDUO_OK; c++) {
-        status = ceduo_run_hazard(run, c, &f->arrivals[c], f->curves ? &f->curves[c] : NULL);
+        struct ceduo_arrivals *a = &f->arrivals[c];
+        status = ceduo_run_hazard(run, c, a, f->curves ? &f->curves[c] : NULL);
+        a->limit = ceduo_exceed_limit(scene, &scene->controls[c]);
+        if (!isnan(a->hazard.accepted_return))
+            a->hazard.accepted_return = ceduo_accepted_return(&scene->controls[c]);
         if (status == CEDUO_OK && fences)
             status = ceduo_run_fence(run, scene, c, bare ? &bare->arrivals[c] : NULL, &f->fences[c]);
-        f->arrivals[c].fence = fences ? &f->fences[c] : NULL;
+        a->fence = fences ? &f->fences[c] : NULL;
     }
     if (status != CEDUO_OK)
         ceduo_simulated_free(f);
