@@ -323,7 +323,9 @@ static void draw_slope(struct app *app, struct ceduo_area area)
         picture.from = fmin(fmax(0, mark - shown / 2), slope_length(app) - shown);
         picture.to = picture.from + shown;
     }
-    ceduo_app_draw_form(app, cut_bottom(&area, picture_only ? 0 : area.height > 45 ? 4 * area.height / 9 : area.height / 3 + 1));
+    ceduo_app_draw_form(app, cut_bottom(&area, picture_only       ? 0
+                                               : area.height > 45 ? 4 * area.height / 9
+                                                                  : area.height / 3 + 1));
     struct ceduo_area whole = area;
     bool has_cursor = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: use all rows for the slope at true scale */
     int rows = area.height + !picture_only,
