@@ -72,11 +72,11 @@ def test_form():
         t.start("fast.yaml")
         t.keys("2")
         t.sees("belt 1 of 2 · 2/38 ▼")
-        t.click("50 ")
+        t.click("50      ")
         t.sees("belt 2 of 2 · 3/34 ▼", "Stand of belt 2: lower")
         t.click("stools per ha")  # the label is a part of the field
         t.sees("stools per horizontal hectare")
-        t.click("1000 ")
+        t.click("            1000 ")  # the column may have this number, too
         t.sees("Esc cancel", "1000_")
         for place_of_click in ("1 slope", "spacing, m", "finished", "empty: default"):
             t.click(place_of_click)
@@ -106,7 +106,7 @@ def test_at_once():
         t.start("fast.yaml")
         t.keys("2")
         t.sees("Stand of belt 1")
-        x, y = t.find("50 ")
+        x, y = t.find("50      ")
         t.keys("1")
         t.sees("Controls", lacks=("Stand of belt 1",))
         t.text("2" + clicks((x, y)))
