@@ -28,9 +28,9 @@ enum ceduo_energy_model ceduo_alternative_law(const struct ceduo_option *option)
 bool ceduo_alternative_scene(const struct ceduo_scene *scene, struct ceduo_scene *alternative);
 void ceduo_alternative_scene_release(struct ceduo_scene *alternative);
 
-/* Read a control from the run of an option under its other law. `first` is this run of the first option. Both may be NULL.
- * Return CEDUO_NO_MEMORY or CEDUO_OK. */
-enum ceduo_status ceduo_alternative_read(const struct ceduo_option *option, const struct ceduo_run *run,
+/* Read a control from the run of option `index` under its other law. `first` is this run of the first option. Both may be NULL.
+ * The scene may differ from that of the runs in accepted return periods. Return CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_alternative_read(const struct ceduo_scene *scene, size_t index, const struct ceduo_run *run,
                                          const struct ceduo_run *first, size_t control,
                                          struct ceduo_alternative_energy *alternative);
 

@@ -132,7 +132,7 @@ enum ceduo_status ceduo_runs_alternative_energies(struct runs *r, const struct c
         status = ceduo_pool_simulate(r->alternative_pool, &r->alternative_scene.options[i], rocks, &run);
         first_run = i == 0 ? run : first_run;
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
-            status = ceduo_alternative_read(&scene->options[i], run, first_run, c, &energies[i * controls + c]);
+            status = ceduo_alternative_read(scene, i, run, first_run, c, &energies[i * controls + c]);
     }
     return status;
 }

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "run_state.h"
+
 enum ceduo_energy_model ceduo_alternative_law(const struct ceduo_option *option)
 {
     for (size_t i = 0; i < option->belts_count; i++) {
@@ -41,10 +43,11 @@ void ceduo_alternative_scene_release(struct ceduo_scene *alternative)
     *alternative = (struct ceduo_scene){0};
 }
 
-enum ceduo_status ceduo_alternative_read(const struct ceduo_option *option, const struct ceduo_run *run,
+enum ceduo_status ceduo_alternative_read(const struct ceduo_scene *scene, size_t index, const struct ceduo_run *run,
                                          const struct ceduo_run *first, size_t control,
                                          struct ceduo_alternative_energy *alternative)
 {
+    const struct ceduo_option *option = &scene->options[index];
     *alternative =
         (struct ceduo_alternative_energy){.known = run && ceduo_run_rocks(run) > 0, .model = ceduo_alternative_law(option)};
     for (size_t i = 0; i < option->belts_count; i++)
@@ -52,5 +55,8 @@ enum ceduo_status ceduo_alternative_read(const struct ceduo_option *option, cons
     if (!alternative->known)
         return CEDUO_OK;
     alternative->to_first = ceduo_run_difference(run, first, control);
-    return ceduo_run_arrivals(run, control, &alternative->arrivals);
+    enum ceduo_status status = ceduo_run_arrivals(run, control, &alternative->arrivals);
+    if (status == CEDUO_OK)
+        ceduo_arrivals_set_limit(&alternative->arrivals, scene, control);
+    return status;
 }

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "run_state.h"
+
 /* ---- results of a run ---- */
 
 static bool allocate_simulated(struct ceduo_simulated *f, size_t controls, bool curves, bool fences)
@@ -34,9 +36,7 @@ enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, const struct
     for (size_t c = 0; c < controls && status == CEDUO_OK; c++) {
         struct ceduo_arrivals *a = &f->arrivals[c];
         status = ceduo_run_hazard(run, c, a, f->curves ? &f->curves[c] : NULL);
-        a->limit = ceduo_exceed_limit(scene, &scene->controls[c]);
-        if (!isnan(a->hazard.accepted_return))
-            a->hazard.accepted_return = ceduo_accepted_return(&scene->controls[c]);
+        ceduo_arrivals_set_limit(a, scene, c);
         if (status == CEDUO_OK && fences)
             status = ceduo_run_fence(run, scene, c, bare ? &bare->arrivals[c] : NULL, &f->fences[c]);
         a->fence = fences ? &f->fences[c] : NULL;
@@ -217,7 +217,7 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
         const struct ceduo_run *first = ceduo_pool_find(pool, &alt.options[0]);
         const struct ceduo_run *run = ceduo_pool_find(pool, &alt.options[i]);
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
-            status = ceduo_alternative_read(&scene->options[i], run, first, c, &r->options[i].alternatives[c]);
+            status = ceduo_alternative_read(scene, i, run, first, c, &r->options[i].alternatives[c]);
     }
     ceduo_alternative_scene_release(&alt);
     return assess_options(r, status, result);

@@ -77,7 +77,6 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
         *to[q] = ceduo_weighted_distribution(&totals, values, gather_weighted(run, get_samples(run, control, q), values));
     size_t n = gather_weighted(run, get_samples(run, control, ENERGY), values);
     bool good = ceduo_hazard_read(&totals, values, n, accepted, &a->hazard, curve); /* sorts `values` */
-    a->hazard.accepted_return = isnan(accepted) ? NAN : ceduo_accepted_return(&run->prepared.scene.controls[control]);
     for (size_t i = 0; i < n; i++) {
         weighted_sum_add(&reach, values[i].weight, 1);
         weighted_sum_add(&exceed, values[i].weight, values[i].value > accepted);
@@ -126,24 +125,23 @@ double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_co
     return scene->blocks_count > 0 ? 1 / (ceduo_accepted_return(control) * per_year) : CEDUO_EXCEED_MAX;
 }
 
-enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
+void ceduo_arrivals_set_limit(struct ceduo_arrivals *a, const struct ceduo_scene *scene, size_t control)
 {
-    return ceduo_run_hazard(run, control, a, NULL);
+    const struct ceduo_control *c = &scene->controls[control];
+    a->limit = ceduo_exceed_limit(scene, c);
+    a->hazard.accepted_return = isnan(a->hazard.per_year) || isnan(c->accepted) ? NAN : ceduo_accepted_return(c);
 }
 
-enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a,
-                                   struct ceduo_hazard_curve *curve)
+/* Read all but the limits. */
+static enum ceduo_status read_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a,
+                                       struct ceduo_hazard_curve *curve)
 {
-    *a = (struct ceduo_arrivals){0};
-    if (control >= run->controls)
-        return CEDUO_BAD_ARGUMENT;
     struct sums s = ceduo_run_sums_at(run, control);
     *a = (struct ceduo_arrivals){.released = run->rocks,
                                  .reached = s.moments[SPEED].n,
                                  .exceeded = s.exceeded,
                                  .unfinished = s.end_counts[CEDUO_UNFINISHED],
                                  .exceed = CEDUO_NO_ESTIMATE,
-                                 .limit = ceduo_exceed_limit(&run->prepared.scene, &run->prepared.scene.controls[control]),
                                  .contacts = CEDUO_NO_ESTIMATE,
                                  .hazard = ceduo_hazard_none(),
                                  .topography = ceduo_prepared_topography(&run->prepared, control)};
@@ -187,6 +185,23 @@ enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, 
     }
     free(scratch);
     return CEDUO_OK;
+}
+
+enum ceduo_status ceduo_run_hazard(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a,
+                                   struct ceduo_hazard_curve *curve)
+{
+    *a = (struct ceduo_arrivals){0};
+    if (control >= run->controls)
+        return CEDUO_BAD_ARGUMENT;
+    enum ceduo_status status = read_arrivals(run, control, a, curve);
+    if (status == CEDUO_OK)
+        ceduo_arrivals_set_limit(a, &run->prepared.scene, control);
+    return status;
+}
+
+enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
+{
+    return ceduo_run_hazard(run, control, a, NULL);
 }
 
 void ceduo_run_group_means(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_group_means *briefs)

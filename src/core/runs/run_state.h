@@ -95,6 +95,9 @@ static inline struct ceduo_estimate ceduo_run_share(uint64_t hits, uint64_t unfi
     return ceduo_wilson((double)hits / (double)n, (double)(hits + unfinished) / (double)n, (double)n);
 }
 
+/* Set the limits of arrivals by a scene, which may differ from that of the run in its accepted return periods. */
+void ceduo_arrivals_set_limit(struct ceduo_arrivals *arrivals, const struct ceduo_scene *scene, size_t control);
+
 /* Set the defeated shares of the groups of ceduo_run_group_means(). Requires a fence at the control. */
 void ceduo_run_group_defeats(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_group_means *briefs);
 
