@@ -73,29 +73,28 @@ static const char *scene_name(struct app *app)
     return "";
 }
 
-/* Return the columns of the title of a view. Names are shortened so that all titles and the scene's name fit. */
-static int title_columns(struct app *app, int view)
+/* Return the columns to which names of closed views are shortened, so that all titles and the scene's name fit. */
+static int fit_names(const struct app *app, const char *name)
 {
-    const char *name = scene_name(app);
     int scene = *name ? scene_columns(app, name) : 0, max = NAME_WANTED;
     while (max > NAME_MIN && all_columns(app, max) + (max > NAME_SHORT ? scene : 0) > app->width)
         max--;
-    return name_columns(app, view, max);
+    return max;
 }
 
 /* Draw the titles of the views, and the scene's name. Return true if there is one. */
 static bool draw_title(struct app *app)
 {
-    int x = 0;
+    const char *name = scene_name(app);
+    int x = 0, max = fit_names(app, name);
     for (int v = 0; v < VIEW_COUNT; v++) {
-        int columns = title_columns(app, v);
+        int columns = name_columns(app, v, max);
         ceduo_canvas_draw_text(&app->cells->canvas, x, 0, columns, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
                                ceduo_app_format(app, app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
                                                 ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help)));
         ceduo_app_add_hit(app, (struct hit){.area = {x, 0, columns, 1}, .key = ceduo_actions[ACTION_VIEW_SLOPE + v].key});
         x += columns;
     }
-    const char *name = scene_name(app);
     ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 0, CEDUO_ROLE_TITLE, name);
     return *name;
 }
