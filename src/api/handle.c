@@ -378,21 +378,11 @@ static enum ceduo_figure_found get_figure(const struct open_scene *scene, const 
     return ceduo_figures_get(ceduo_result_figures, scene->simulated ? &place : NULL, path, value);
 }
 
-/* True if a figure depends on the years by which options are judged. They are simulated only when such a figure is read. */
-static bool needs_years(const char *path)
-{
-    struct path_step step;
-    size_t offset = 0;
-    while (ceduo_path_next(path, strlen(path), &offset, &step))
-        if (ceduo_path_is(&step, "window") || ceduo_path_is(&step, "verdict"))
-            return true;
-    return false;
-}
-
 static enum ceduo_status get(struct open_scene *scene, const char *path, double value[3])
 {
     enum ceduo_status status = refresh(scene);
-    if (status == CEDUO_OK && scene->simulated && !scene->years_simulated && needs_years(path))
+    /* the years take most of the time, so they are simulated only for figures that need them */
+    if (status == CEDUO_OK && scene->simulated && !scene->years_simulated && ceduo_figures_need_years(path))
         status = simulate(scene, true);
     if (status != CEDUO_OK)
         return status;

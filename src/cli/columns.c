@@ -41,14 +41,15 @@ static void choose(struct columns *c, size_t column, const char *name)
     c->chosen[c->chosen_count++] = (struct chosen_column){column, name};
 }
 
-/* Choose the copied cells without the geometry of a feature, with --key only the key; with --each the state of the row, except `run`; and all of the result. */
+/* Choose the copied cells without the geometry of a feature, with --key only the key. With --each also choose the state of the
+ * row, except `run`. Choose all of the result. */
 static void choose_usual(struct columns *c)
 {
     const struct each *e = c->each;
     size_t n = 0;
     for (size_t i = 0; i < e->heads_count; i++) {
         bool geometry = e->given->format == CEDUO_GEOJSON && (e->wkt == NO_COLUMN ? i == e->x || i == e->y : i == e->wkt);
-        if (ceduo_each_is_copied(e, i) && (e->key == NO_COLUMN ? !geometry : i == e->key))
+        if (ceduo_each_is_shown(e, i) && (e->key != NO_COLUMN || !geometry))
             choose(c, n, c->names[n]);
         n += ceduo_each_is_copied(e, i);
     }

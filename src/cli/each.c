@@ -23,6 +23,11 @@ bool ceduo_each_is_copied(const struct each *e, size_t column)
     return head->name[0] && (head->sets == PATH_UNKNOWN || column == e->key);
 }
 
+bool ceduo_each_is_shown(const struct each *e, size_t column)
+{
+    return ceduo_each_is_copied(e, column) && (e->key == NO_COLUMN || column == e->key);
+}
+
 static bool is_set(const struct each_head *head)
 {
     return head->name[0] && head->sets != PATH_UNKNOWN;
@@ -328,7 +333,7 @@ void ceduo_each_json(const struct each *e, struct json *json)
 {
     ceduo_json_open(json, "row", '{');
     for (size_t i = 0; i < e->heads_count; i++)
-        if (ceduo_each_is_copied(e, i) && (e->key == NO_COLUMN || i == e->key))
+        if (ceduo_each_is_shown(e, i))
             ceduo_each_json_cell(json, e->heads[i].name, e->cells[i]);
     ceduo_json_close(json, '}');
 }
@@ -337,7 +342,7 @@ void ceduo_each_page(const struct each *e, struct text *page)
 {
     ceduo_text_append_escaped(page, e->name);
     for (size_t i = 0; i < e->heads_count; i++)
-        if (ceduo_each_is_copied(e, i) && (e->key == NO_COLUMN || i == e->key) && e->cells[i][0]) {
+        if (ceduo_each_is_shown(e, i) && e->cells[i][0]) {
             ceduo_text_append(page, " \xc2\xb7 ");
             ceduo_text_append_escaped(page, e->cells[i]);
         }

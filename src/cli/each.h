@@ -59,6 +59,9 @@ bool ceduo_each_next(struct each *each);
 /* True if a column is copied to the output: its head is no path, or it is the key. */
 bool ceduo_each_is_copied(const struct each *each, size_t column);
 
+/* True if a column is printed unless --columns chooses: it is copied, and with --key it is the key. */
+bool ceduo_each_is_shown(const struct each *each, size_t column);
+
 /* Append the first error of the current row in English if the row is bad. */
 void ceduo_each_reason(struct each *each, struct text *reason);
 

@@ -38,7 +38,7 @@ static bool has_column(const struct arguments *a, const char *group)
 /* True unless --columns has no column that depends on future years. */
 static bool judges_years(const struct arguments *a)
 {
-    return has_column(a, "worst.") || has_column(a, "verdict.") || has_column(a, "window.");
+    return !a->columns || ceduo_figures_need_years(a->columns);
 }
 
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)

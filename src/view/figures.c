@@ -46,6 +46,11 @@ static void report_sentences(const struct ceduo_figure *f, const struct ceduo_pl
     ceduo_language_set_data(false);
 }
 
+bool ceduo_figures_need_years(const char *paths)
+{
+    return strstr(paths, "window.") || strstr(paths, "worst.") || strstr(paths, "verdict.");
+}
+
 /* ---- JSON ---- */
 
 struct writer {

@@ -83,6 +83,9 @@ enum ceduo_figure_found { CEDUO_FIGURE_FOUND, CEDUO_NO_FIGURE, CEDUO_NO_ITEM, CE
 enum ceduo_figure_found ceduo_figures_get(const struct ceduo_figure *figures, const void *object, const char *path,
                                           double value[3]);
 
+/* True if paths, in any notation, name figures of the years by which options are judged. */
+bool ceduo_figures_need_years(const char *paths);
+
 /* CSV table. Each item of the nested lists is a row; without a list the object is. */
 #define CEDUO_CSV_LEVELS 3
 struct ceduo_csv {

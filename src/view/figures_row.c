@@ -5,7 +5,6 @@
 #include "ceduo/status.h"
 
 VALUE(failed_format, row_state, TEXT, WORD("ceduo-failed-1"))
-VALUE(program_version, row_state, TEXT, WORD(CEDUO_VERSION))
 VALUE(row_status, row_state, TEXT, WORD(o->reason ? "failed" : "ok"))
 VALUE(failed_class, row_state, COUNT, COUNT(CEDUO_CLASS_NOT_JUDGED))
 
@@ -19,17 +18,13 @@ const struct ceduo_figure ceduo_row_figures[] = {
     REASON,
     {"run", "",
      "hash of version, options and all files and values that the scene was read from: equal hashes, equal figures; printed "
-     "only "
-     "if --columns names it",
+     "only if --columns names it",
      MEMBER(row_state, run)},
     END};
 
-const struct ceduo_figure ceduo_failed_figures[] = {{"format", "", "always ceduo-failed-1", .value = failed_format},
-                                                    {"version", "", "version of the program", .value = program_version},
-                                                    REASON,
-                                                    END};
+const struct ceduo_figure ceduo_failed_figures[] = {
+    {"format", "", "always ceduo-failed-1", .value = failed_format}, VERSION, REASON, END};
 
 static const struct ceduo_figure failed_verdict[] = {
     {"class", "", "", .value = failed_class}, {"why", "", "", .value = row_status}, END};
-const struct ceduo_figure ceduo_failed_columns[] = {
-    {"verdict", "", "", .table = failed_verdict}, {"version", "", "", .value = program_version}, END};
+const struct ceduo_figure ceduo_failed_columns[] = {{"verdict", "", "", .table = failed_verdict}, VERSION, END};
