@@ -85,11 +85,11 @@ struct ceduo_fence_years {
     struct ceduo_estimate mean;  /* defeated share; the interval is an upper bound */
     struct ceduo_estimate worst; /* defeated share of the worst year */
     unsigned worst_year;
-    size_t failing;                                        /* years in which more than the limit defeat the fence */
+    size_t failing;                                        /* years above the limit */
     double per_year, in_life;                              /* mean over the years; NaN: no blocks */
     struct ceduo_fence_choice enough[CEDUO_FENCE_HEIGHTS]; /* today and in all years */
     struct ceduo_fence_load arriving, system;              /* largest of all years */
-    size_t exceptions;                                     /* years in which today's smallest choice is not enough */
+    size_t exceptions;                                     /* years that need more than today's smallest choice */
     unsigned first_exception, last_exception;
 };
 

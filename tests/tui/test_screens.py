@@ -83,7 +83,7 @@ def check_frame(screen, view, scene, charset):
         line = screen.lines[y].ljust(screen.width)
         expect(line[at] == wall and line[at - 1] == line[at + 1] == " ",
                f"line {y + 1}: something reaches over the wall between view and figures: {line!r}", screen)
-    # second line of the field's explanation; empty if one is enough, but for the position of a text above
+    # The second line of the field's explanation is empty if one line is enough. The position of a text above may stand there.
     note = re.sub(r"^ *\d+/\d+ [▲▼^v]+$", "", screen.lines[screen.height - 3])
     expect(note == "" or len(note) + len(screen.lines[-2]) >= screen.width - 10, "a line of distance is not empty", screen)
     if charset == "ascii":

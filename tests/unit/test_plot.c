@@ -319,7 +319,7 @@ TEST_WOODED(small_strips_show_one_pair_of_curves)
     assert_non_null(strstr(text, "mean energy, kJ"));
 }
 
-/* Labels are in the order in which the curves end: here the mean with forest is above the mean without. */
+/* Labels are sorted by the ends of the curves: here the mean with forest is above the mean without. */
 TEST_WOODED(labels_are_in_the_order_of_the_ends)
 {
     for (int i = 0; i < CELLS; i++) {
