@@ -152,7 +152,7 @@ static size_t narrow_to_ranks(double *values, size_t n, struct target *targets, 
     uint32_t counts[BINS + 1] = {0};
     bool keep[BINS + 1] = {false};
     for (size_t i = 0; i < n; i++)
-        counts[(size_t)((values[i] - min) * scale)]++;
+        counts[(int)((values[i] - min) * scale)]++;
     for (size_t i = 0, bin = 0, before = 0, dropped = 0; i < targets_count;) {
         if (targets[i].rank <= before + counts[bin]) {
             keep[bin] = true;
@@ -168,7 +168,7 @@ static size_t narrow_to_ranks(double *values, size_t n, struct target *targets, 
         double value = values[i];
         values[i] = values[kept];
         values[kept] = value;
-        kept += keep[(size_t)((value - min) * scale)];
+        kept += keep[(int)((value - min) * scale)];
     }
     return kept;
 }
