@@ -111,8 +111,7 @@ FORCE_INLINE unsigned lanes_up_to(unsigned n, size_t j)
     return n - j >= REAL_LANES ? REGISTER : (1u << (n - j)) - 1;
 }
 
-/* Move the flights from j on, of which `going` search their landing, to the segment after the next vertex, if they clear it.
- * Return those that do. */
+/* Move the flights `going` from j on to the segment after the next vertex, if they clear it. Return these flights. */
 FORCE_INLINE mask pass_vertex(struct kernel_params params, const struct lanes *k, const struct leaving *f, size_t j, mask going,
                               ints *segment)
 {
