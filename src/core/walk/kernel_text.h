@@ -123,6 +123,7 @@ static void walk_job(const struct lanes_job *job)
     k.has_chunks = k.g->top > 0;
     k.ground_varies = k.g->rn_varies || k.g->rt_varies || (k.g->theta_varies && !k.g->roughness_index);
     k.theta_varies = k.g->theta_varies;
+    k.small_facets = job->ground->small_facets && !k.theta_varies;
     k.against = k.g->facets == CEDUO_FACETS_AGAINST;
     k.scale_rn = w->scale_rn;
     k.friction_bound = w->friction_bound;

@@ -30,5 +30,8 @@ struct lanes_ground *ceduo_lanes_ground_create(const struct ground *g)
     set_table(&lanes->tangents, &before->c, SEGMENT_SHIFT, entries);
     set_table(&lanes->restitutions, &before->rn, SEGMENT_SHIFT, entries);
     set_table(&lanes->frictions, &before->mu, SEGMENT_SHIFT, entries);
+    lanes->small_facets = true;
+    for (size_t j = 0; j < g->n; j++)
+        lanes->small_facets &= g->segments[j].theta <= HALF_TURN / 4;
     return lanes;
 }

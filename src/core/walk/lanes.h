@@ -23,6 +23,7 @@ struct lanes_ground {
     struct lanes_table restitutions; /* rn, rt */
     struct lanes_table frictions;    /* mu, friction */
     bool small;                      /* all tables fit TABLE_SMALL */
+    bool small_facets;               /* the largest facet angles are at most pi/4 */
 };
 
 /* Return the tables; NULL without memory. Caller frees them before the ground. */

@@ -92,7 +92,10 @@ FORCE_INLINE void draw_facets(struct kernel_params params, struct lanes *k, size
         largest = load(&k->theta[i]);
     real angle = facet_angle(k->against, largest, next_draw(params, k, k->draw, i));
     angle = blend(less(splat(0), largest), angle, splat(0));
-    lanes_sincos(&angle, &sine, &cosine);
+    if (k->small_facets)
+        lanes_sincos_small(&angle, &sine, &cosine);
+    else
+        lanes_sincos(&angle, &sine, &cosine);
     store(&k->facet.sine[i], sine);
     store(&k->facet.cosine[i], cosine);
     if (params.law->sections) {

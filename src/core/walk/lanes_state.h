@@ -83,6 +83,7 @@ struct lanes {
     bool has_chunks;    /* the ground has chunks */
     bool ground_varies; /* the ground varies between rocks */
     bool theta_varies;  /* or only the largest facet angle, with the rock's radius */
+    bool small_facets;  /* facet angles are at most pi/4 */
     bool against, scale_rn, friction_bound;
 
     /* next contact, and the motion after the last one, on segment `from` */
