@@ -129,7 +129,7 @@ struct app {
     size_t pictures_count;
     struct hit hits[HITS_MAX];
     size_t hits_count;
-    bool drawn; /* neither input nor results since the screen was drawn: the hits are up to date */
+    bool drawn;        /* neither input nor results since the screen was drawn: the hits are up to date */
     int width, height; /* of the program: a tour takes the last lines of the cells */
     enum ceduo_charset charset;
     int theme; /* 0 dark, 1 light, 2 none */

@@ -413,7 +413,8 @@ static void draw_text(struct app *app, struct popup *p)
     p->show_found = false;
     ceduo_app_draw_wrapped(app, inner, CEDUO_ROLE_TEXT, text, p->lines.first);
     if (found >= p->lines.first) { /* the same text, of which one line is in the area */
-        struct ceduo_area line = {inner.left, inner.top + found - p->lines.first, inner.width, found - p->lines.first < inner.height};
+        struct ceduo_area line = {inner.left, inner.top + found - p->lines.first, inner.width,
+                                  found - p->lines.first < inner.height};
         ceduo_app_draw_wrapped(app, line, CEDUO_ROLE_CURSOR, text, found);
     }
     draw_position(app, p, false, &p->lines, p->lines.first + p->lines.rows - 1);
@@ -511,7 +512,8 @@ static const struct {
     void (*draw)(struct app *app, struct popup *popup);
     const char *bar;
 } popup_kinds[] = {
-    [POPUP_TEXT] = {handle_text_key, draw_text, N_("Space page  / search  N again  Up Down PgUp PgDn scroll  other keys close")},
+    [POPUP_TEXT] = {handle_text_key, draw_text,
+                    N_("Space page  / search  N again  Up Down PgUp PgDn scroll  other keys close")},
     [POPUP_FIELD] = {handle_field_key, NULL, N_("Enter accept  Esc cancel  empty: default")},
     [POPUP_LIST] = {handle_list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab complete  Up Down move")},
     [POPUP_FIELDS] = {handle_fields_key, draw_fields, N_("Enter next field, on the last one done  Esc back  Tab complete")}};
@@ -538,7 +540,8 @@ bool ceduo_popup_paste(struct app *app, const char *text)
 const char *ceduo_popup_key_help(const struct app *app)
 {
     return app->popup->typing    ? _("Enter search  Esc cancel")
-           : app->popup->is_menu ? _("a letter, or Up Down and Enter  Esc cancel") : _(popup_kinds[app->popup->kind].bar);
+           : app->popup->is_menu ? _("a letter, or Up Down and Enter  Esc cancel")
+                                 : _(popup_kinds[app->popup->kind].bar);
 }
 
 /* Rebuild the note. */

@@ -269,8 +269,9 @@ static void note_survey(struct app *app, struct popup *p)
     LOCAL_TEXT(note);
     LOCAL_PROBLEMS(problems);
     if (!ceduo_picker_is_file(p->value, p->endings))
-        ceduo_text_append(&note, _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, "
-                                   "status; see ceduo-stand(5)."));
+        ceduo_text_append(&note,
+                          _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, "
+                            "status; see ceduo-stand(5)."));
     else if (!read_survey(p->value, &(struct survey_answers){0}, &value, &note, &problems) && problems.wrong.n > 0)
         ceduo_problem_line(problems.wrong.items, &note);
     ceduo_text_append_escaped(&p->text, ceduo_text_string(&note));

@@ -333,7 +333,8 @@ bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset 
     bool good = ceduo_app_create(app, path, charset, threads, no_recovery);
     app->plain = good && !path;
     if (app->plain)
-        ceduo_app_show_message(app, "%s", _("t shows the program in ten questions; n asks for your own slope; o opens a scene"));
+        ceduo_app_show_message(app, "%s",
+                               _("t shows the program in ten questions; n asks for your own slope; o opens a scene"));
     if (good)
         end_input(app);
     return good;

@@ -332,8 +332,9 @@ void ceduo_screen_draw(struct app *app)
     app->drawn = true;
     if (app->width < WIDTH_MIN || app->height < HEIGHT_MIN) {
         struct ceduo_area whole = {0, 0, app->width, app->height};
-        const char *text = ceduo_app_format(app, _("The window (%d x %d) is too small: at least %d x %d is needed. q quits."),
-                                            app->width, app->cells->height, WIDTH_MIN, HEIGHT_MIN + app->cells->height - app->height);
+        const char *text =
+            ceduo_app_format(app, _("The window (%d x %d) is too small: at least %d x %d is needed. q quits."), app->width,
+                             app->cells->height, WIDTH_MIN, HEIGHT_MIN + app->cells->height - app->height);
         ceduo_app_draw_wrapped(app, whole, CEDUO_ROLE_WARN, text, 0);
         return;
     }

@@ -25,11 +25,13 @@ static const struct tour_step steps[] = {
         "saves nothing."),
      ""},
     {NULL, NULL,
-     N_("Line 2 is the answer: in how many of the years ahead too many rocks exceed the limit. The right column has the figures "
+     N_("Line 2 is the answer: in how many of the years ahead too many rocks exceed the limit. The right column has the "
+        "figures "
         "of today."),
      ""},
 
-    {PAPER, N_("How sure is the answer?"), N_("View 7 computes how far the answer can be off if the inputs are uncertain."), "7"},
+    {PAPER, N_("How sure is the answer?"), N_("View 7 computes how far the answer can be off if the inputs are uncertain."),
+     "7"},
     {NULL, NULL, N_("The bar is the range of 9 in 10 plausible cases. The sentences below say what to measure first."), ""},
 
     {PAPER, N_("Which of two cuts is better?"), N_("View 5 has a row for each option. So far it is the forest as it is."), "5"},
@@ -39,7 +41,7 @@ static const struct tour_step steps[] = {
     {NULL, NULL, N_("d deletes the row under the cursor: here the first one, the forest as it is."), "g d"},
     {NULL, NULL, N_("The sentence below the table says which cut lets the fewest dangerous rocks through."), ""},
 
-    {FOUR, N_("How much wood can I fell?"), N_("Another scene, with four treatments. View 5 compares them."), "5"},
+    {FOUR, N_("How much wood does a cut yield?"), N_("Another scene, with four treatments. View 5 compares them."), "5"},
     {NULL, NULL, N_("m3/y is the wood felled per hectare and year, beside the years in which the limit is exceeded."), ""},
 
     {PAPER, N_("How many trees must I keep?"), N_("View 2 is the stand of a belt."), "2"},
@@ -53,7 +55,7 @@ static const struct tour_step steps[] = {
 
     {PAPER, N_("How do I enter my own slope?"), N_("n asks for a new scene."), "n"},
     {NULL, NULL, N_("Enter takes what is proposed or typed. The profile is a CSV file, or points x z as here."), "Enter Enter"},
-    {NULL, NULL, N_("The picture is the profile as it was read. The release and the rock face were found in it."),
+    {NULL, NULL, N_("The first lines tell how the profile was read: its length, its fall, and where the rocks start."),
      "Enter Enter Enter Enter Enter Enter Enter"},
     {NULL, NULL, N_("The scene is complete and computed. Each value can now be changed; s saves the scene."), ""},
 
@@ -67,7 +69,8 @@ static const struct tour_step steps[] = {
     {NULL, NULL, N_("Enter opens the field under the cursor: the diameter becomes 0.8 m."), "Down Enter . 8 Enter"},
     {NULL, NULL, N_("The answer follows at once, as after every edit. u undoes."), ""},
 
-    {PAPER, N_("How do I hand in the result?"), N_("w exports what is shown. The last but one is a report to sign."), "w End Up Enter"},
+    {PAPER, N_("How do I hand in the result?"), N_("w exports what is shown. The last but one is a report to sign."),
+     "w End Up Enter"},
     {NULL, NULL, N_("The head of the report: place, owner, parcel, author, date, note. Empty lines are left out."),
      "Enter Enter Enter Enter Enter Enter"},
     {NULL, NULL, N_("Enter would now write the report. The tour leaves that to you, and ends here."), ""},
@@ -161,13 +164,14 @@ void ceduo_tour_draw(struct app *app)
     while (!question->question)
         question--;
     const char *name = next_name(app);
-    const char *head =
-        ceduo_app_format(app, _(" Tour %d/%d  %s"), count_questions(step), count_questions(steps + STEPS - 1), _(question->question));
+    const char *head = ceduo_app_format(app, _(" Tour %d/%d  %s"), count_questions(step), count_questions(steps + STEPS - 1),
+                                        _(question->question));
     const char *keys = name[0] ? ceduo_app_format(app, _("Space presses %s  Esc ends"), name) : _("Space goes on  Esc ends");
     ceduo_cells_clear_area(app->cells, area);
     struct ceduo_area line = cut_top(&area, 1);
     ceduo_app_draw_label(app, 0, line.top, CEDUO_ROLE_CURSOR, "%-*s", ceduo_utf8_field(head, app->width), head);
-    ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, line.top, CEDUO_ROLE_CURSOR, ceduo_app_format(app, " %s", keys));
+    ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, line.top, CEDUO_ROLE_CURSOR,
+                             ceduo_app_format(app, " %s", keys));
     ceduo_text_append(&text, _(step->text));
     ceduo_app_draw_text(app, area, CEDUO_ROLE_TEXT, &text);
     ceduo_app_add_hit(app, (struct hit){.area = {0, line.top, app->width, TOUR_LINES}, .key = ' '});
