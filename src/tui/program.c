@@ -267,6 +267,8 @@ static void end_input(struct app *app)
 void ceduo_program_key(struct app *app, int key)
 {
     bool first = app->plain && !app->popup && !app->tour.step;
+    if (app->tour.step && !ceduo_tour_accepts(app, key))
+        return;
     begin_input(app);
     app->plain &= !first;
     if (app->tour.step)

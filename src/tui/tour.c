@@ -120,6 +120,7 @@ static void begin_step(struct app *app, const struct tour_step *step)
         return;
     ceduo_popup_close(app);
     app->view = VIEW_SLOPE;
+    app->uncertainty_on = !app->tour.no_recovery; /* as at the start of the program */
     if (!ceduo_app_open(app, step->scene, NULL))
         end_tour(app);
 }
@@ -134,17 +135,26 @@ void ceduo_tour_start(struct app *app, const char *path)
     fit_height(app);
 }
 
+/* True if a key ends the tour. */
+static bool is_end(int key)
+{
+    return key == K_ESCAPE || ceduo_action_find(key) == ACTION_QUIT;
+}
+
+bool ceduo_tour_accepts(const struct app *app, int key)
+{
+    return is_end(key) || key == ' ' || key == K_ENTER || key == ceduo_key_find(next_name(app));
+}
+
 int ceduo_tour_key(struct app *app, int key)
 {
     struct tour *tour = &app->tour;
     const char *name = next_name(app);
     int wanted = ceduo_key_find(name);
-    if (key == K_ESCAPE || key == ceduo_actions[ACTION_QUIT].key || key == ceduo_actions[ACTION_QUIT].key2) {
+    if (is_end(key)) {
         end_tour(app);
         return K_NONE;
     }
-    if (key != ' ' && key != K_ENTER && key != wanted)
-        return K_NONE;
     tour->keys += strlen(name);
     tour->keys += strspn(tour->keys, " ");
     if (tour->keys[0] == '\0' && tour->step + 1 < steps + STEPS)
