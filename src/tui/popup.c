@@ -210,10 +210,13 @@ static void search_text(struct app *app, struct popup *p)
         ceduo_app_warn(app, _("'%s' not found"), app->search);
 }
 
+#define TEXT_FRAME 4 /* lines of the screen around a long text */
+
 static void handle_text_key(struct app *app, struct popup *p, int key)
 {
-    int page = p->lines.rows > 1 ? p->lines.rows - 1 : 1, step = key == ' ' ? page : key_lines(key, true);
     enum action action = ceduo_action_find(key);
+    int page = app->height - TEXT_FRAME - 1; /* keep a line in view; keys may precede drawing */
+    int step = key == ' ' || action == ACTION_PAGE_DOWN ? page : action == ACTION_PAGE_UP ? -page : key_lines(key, true);
     struct line *line = &p->fields[0].line;
     app->message[0] = '\0';
     if (p->typing && (key == K_ENTER || key == K_ESCAPE)) {
@@ -408,8 +411,9 @@ static void draw_text(struct app *app, struct popup *p)
         ceduo_app_draw_wrapped(app, cut_top(&inner, 1), CEDUO_ROLE_WARN, app->message, 0);
     viewport_fit(&p->lines, inner.height, ceduo_app_count_lines(app, text, inner.width));
     int found = p->found > 0 ? ceduo_app_find_line(text, inner.width, text + p->found - 1) : -1;
+    int below = found + p->lines.rows / 2, last = below < p->lines.count ? below : p->lines.count - 1;
     if (p->show_found)
-        viewport_show(&p->lines, found, found);
+        viewport_show(&p->lines, found, last);
     p->show_found = false;
     ceduo_app_draw_wrapped(app, inner, CEDUO_ROLE_TEXT, text, p->lines.first);
     if (found >= p->lines.first) { /* the same text, of which one line is in the area */
@@ -513,7 +517,7 @@ static const struct {
     const char *bar;
 } popup_kinds[] = {
     [POPUP_TEXT] = {handle_text_key, draw_text,
-                    N_("Space page  / search  N again  Up Down PgUp PgDn scroll  other keys close")},
+                    N_("Space page  / search  Up Down scroll  any other key closes")},
     [POPUP_FIELD] = {handle_field_key, NULL, N_("Enter accept  Esc cancel  empty: default")},
     [POPUP_LIST] = {handle_list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab complete  Up Down move")},
     [POPUP_FIELDS] = {handle_fields_key, draw_fields, N_("Enter next field, on the last one done  Esc back  Tab complete")}};
