@@ -516,8 +516,7 @@ static const struct {
     void (*draw)(struct app *app, struct popup *popup);
     const char *bar;
 } popup_kinds[] = {
-    [POPUP_TEXT] = {handle_text_key, draw_text,
-                    N_("Space page  / search  Up Down scroll  any other key closes")},
+    [POPUP_TEXT] = {handle_text_key, draw_text, N_("Space page  / search  Up Down scroll  any other key closes")},
     [POPUP_FIELD] = {handle_field_key, NULL, N_("Enter accept  Esc cancel  empty: default")},
     [POPUP_LIST] = {handle_list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab complete  Up Down move")},
     [POPUP_FIELDS] = {handle_fields_key, draw_fields, N_("Enter next field, on the last one done  Esc back  Tab complete")}};

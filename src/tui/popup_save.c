@@ -279,7 +279,7 @@ bool ceduo_popup_open_recovery(struct app *app, const char *value)
     return true;
 }
 
-/* List the copies as a menu: those of this document first, the first nine with a digit. */
+/* List the copies as a menu, the newest first, or those of a named document first. The first nine have a digit. */
 static struct popup *list_recoveries(struct app *app, const char *title, popup_call *on_select)
 {
     struct popup *p = ceduo_popup_list(app, title, "", on_select);
@@ -288,7 +288,7 @@ static struct popup *list_recoveries(struct app *app, const char *title, popup_c
     char key = '1';
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < n; i++)
-            if (is_of_this_document(app, &list[i]) == !pass)
+            if ((app->plain || is_of_this_document(app, &list[i])) == !pass)
                 add_recovery(app, p, &list[i], key <= '9' ? key++ : ' ');
     return p;
 }
