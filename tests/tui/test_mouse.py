@@ -66,6 +66,24 @@ def test_titles_and_bar():
         t.sees("READY>")
 
 
+def test_tour():
+    """In the tour a click on its lines goes on, one on the named key presses it; other clicks, the wheel and a paste do nothing"""
+    with Place() as place, Mouse(place) as t:
+        t.start("--tour", sees=("Tour 1/10", "? help"))
+        t.click("Tour 1/10")
+        t.sees("Line 2 is the answer")
+        t.click("Space goes on")
+        t.sees("Tour 2/10", "Space presses 7")
+        t.click("3 rock")
+        t.click("u undo")
+        t.click("67.5")
+        t.wheel("Belts of forest", WHEEL_DOWN)
+        t.text("\x1b[200~7\x1b[201~")
+        t.sees("nothing pasted: the tour types for you", "Space presses 7", "belt 1 of 2 · 3/42")
+        t.click("7 unce")
+        t.sees("The bar is the range", "90 % range", lacks=("nothing pasted",))
+
+
 def test_form():
     """A click selects a field, a second one edits it; the wheel moves the cursor, and the head follows"""
     with Place() as place, Mouse(place) as t:

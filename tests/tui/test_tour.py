@@ -82,7 +82,7 @@ def test_ten_questions():
 
 
 def test_keys_themselves():
-    """The keys that the tour names give the same screens as Space; other keys, a paste and a click change nothing"""
+    """The keys that the tour names give the same screens as Space; other keys change nothing"""
     tour = questions()[2]
     before = " ".join(["Space"] * sum(spaces(steps) for steps in questions()[:2]))
     by_space = f"key {before}\nwait idle\ndump\n" + f"key{' Space' * (spaces(tour) - 1)}\nwait idle\ndump"
