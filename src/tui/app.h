@@ -109,14 +109,14 @@ struct last_screen {
     size_t option, year;
 };
 
-#define TOUR_LINES 3 /* of the screen, below the program */
+#define TOUR_LINES 3 /* last lines of the screen, for the tour */
 
 /* Position in the tour (tour.c). */
 struct tour {
     const struct tour_step *step; /* NULL: no tour */
-    const char *keys;             /* keys of the step that were not pressed yet */
+    const char *keys;             /* remaining keys of the step */
     const char *path;             /* scene to open at the end; NULL: the site of the paper */
-    bool no_recovery;             /* of the program, after the tour */
+    bool no_recovery;             /* value to restore at the end */
 };
 
 struct app {
@@ -130,7 +130,7 @@ struct app {
     struct hit hits[HITS_MAX];
     size_t hits_count;
     bool drawn;        /* neither input nor results since the screen was drawn: the hits are up to date */
-    int width, height; /* of the program: a tour takes the last lines of the cells */
+    int width, height; /* size of the program: the cells without the lines of a tour */
     enum ceduo_charset charset;
     int theme; /* 0 dark, 1 light, 2 none */
     enum view_number view;
@@ -145,7 +145,7 @@ struct app {
     char search[128];
     struct popup *popup;
     struct tour tour;
-    bool plain;                          /* started without a scene, and no key pressed yet but those of a popup */
+    bool plain;                          /* started without a scene, and no key was pressed outside a popup */
     bool just_opened;                    /* a document was just opened: offer abandoned work */
     bool no_recovery;                    /* for scripts: offer no unsaved work, keep no copy */
     bool uncertainty_on;                 /* compute uncertainty; in a script, from the first visit of view 7 on */
@@ -163,7 +163,8 @@ bool ceduo_app_open(struct app *app, const char *path, const char *text);
 
 void ceduo_popup_close(struct app *app); /* close the open popup, if any (popup.c) */
 
-void ceduo_app_resize(struct app *app, int width, int height); /* of the cells */
+/* Set the size of the cells. */
+void ceduo_app_resize(struct app *app, int width, int height);
 
 /* Return a string that lives until the next key. Return a path in words. */
 char *ceduo_app_format(const struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -177,7 +178,7 @@ void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...) 
 /* End an edit: update form and figures if it was good, otherwise show the reason. Return `good`. */
 bool ceduo_app_finish_edit(struct app *app, bool good);
 
-/* Keep the text to search for, for views and texts. */
+/* Set the text to search for in views and texts. */
 void ceduo_app_set_search(struct app *app, const char *text);
 
 /* Set a value, written as in a file, and remove conflicting values. */

@@ -416,7 +416,7 @@ static void draw_text(struct app *app, struct popup *p)
         viewport_show(&p->lines, found, last);
     p->show_found = false;
     ceduo_app_draw_wrapped(app, inner, CEDUO_ROLE_TEXT, text, p->lines.first);
-    if (found >= p->lines.first) { /* the same text, of which one line is in the area */
+    if (found >= p->lines.first) { /* draw the text again into the area of this line */
         struct ceduo_area line = {inner.left, inner.top + found - p->lines.first, inner.width,
                                   found - p->lines.first < inner.height};
         ceduo_app_draw_wrapped(app, line, CEDUO_ROLE_CURSOR, text, found);

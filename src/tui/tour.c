@@ -41,8 +41,8 @@ static const struct tour_step steps[] = {
     {NULL, NULL, N_("d deletes the row under the cursor: here the first one, the forest as it is."), "g d"},
     {NULL, NULL, N_("The sentence below the table says which cut lets the fewest dangerous rocks through."), ""},
 
-    {FOUR, N_("How much wood does a cut yield?"), N_("Another scene, with four treatments. View 5 compares them."), "5"},
-    {NULL, NULL, N_("m3/y is the wood felled per hectare and year, beside the years in which the limit is exceeded."), ""},
+    {FOUR, N_("How much does a cut yield?"), N_("Another scene, with four treatments. View 5 compares them."), "5"},
+    {NULL, NULL, N_("m3/y is the volume felled per hectare and year, beside the years in which the limit is exceeded."), ""},
 
     {PAPER, N_("How many trees must I keep?"), N_("View 2 is the stand of a belt."), "2"},
     {NULL, NULL, N_("/ goes to a line of the form by a word of its label or of its name in the file."), "/ t r e e s Enter"},
