@@ -331,7 +331,7 @@ void ceduo_screen_draw(struct app *app)
     app->pictures_count = app->hits_count = 0;
     app->drawn = true;
     if (app->width < WIDTH_MIN || app->height < HEIGHT_MIN) {
-        struct ceduo_area whole = {0, 0, app->width, app->height};
+        struct ceduo_area whole = {0, 0, app->width, app->cells->height};
         const char *text =
             ceduo_app_format(app, _("The window (%d x %d) is too small: at least %d x %d is needed. q quits."), app->width,
                              app->cells->height, WIDTH_MIN, HEIGHT_MIN + app->cells->height - app->height);
