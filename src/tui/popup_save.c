@@ -230,13 +230,13 @@ static void add_recovery(const struct app *app, struct popup *p, const struct re
     if (localtime_r(&r->when, &tm))
         strftime(date, sizeof date, "%Y-%m-%d %H:%M", &tm);
     const char *words =
-        ceduo_app_format(app, _("unsaved changes of %s, %s: %s, %s"), date, describe_age(app, r->when),
-                         r->title[0] ? r->title : _("no title"), r->scene ? ceduo_file_name(r->scene) : _("never saved"));
+        ceduo_app_format(app, "%s, %s: %s, %s", date, describe_age(app, r->when),
+                         r->scene ? ceduo_file_name(r->scene) : _("never saved"), r->title[0] ? r->title : _("no title"));
     const char *value = ceduo_app_format(app, RECOVERY "%s", r->file);
     if (key)
         ceduo_popup_add_menu_item(p, key, words, value);
     else
-        ceduo_popup_add_item(p, words, value);
+        ceduo_popup_add_item(p, ceduo_app_format(app, _("unsaved changes of %s"), words), value);
 }
 
 void ceduo_popup_offer_recoveries(const struct app *app, struct popup *p)
