@@ -303,11 +303,12 @@ static void refill(struct lanes *k, size_t i, bool shared)
         }
         job->ended(job->context, i, end);
     }
-    /* An idle lane is computed like any other lane; its results are ignored. */
+    /* An idle lane is computed like any other lane; its results are ignored. It stands still, so that it stays on the slope. */
     k->exhausted = true;
     k->live &= ~bit;
     k->stem_unknown &= ~bit;
     k->segment[i] = 1;
+    k->to.q[i] = k->to.along[i] = k->to.off[i] = k->spin[i] = 0;
     k->next_x[i] = k->stem_ahead[i] = INFINITY;
     k->stem_behind[i] = -INFINITY;
     k->contacts[i] = 0;
