@@ -16,6 +16,10 @@
 #define HALF_CELLS      46  /* cells of a picture of half width */
 #define WIDE_CELLS      112 /* cells of a wide picture with few rows */
 #define CROWDED_OPTIONS 4   /* max options of a page with all pictures */
+#define HEIGHT_ROWS     6   /* rows of the strip of heights below the slope */
+#define ENERGY_ROWS     8   /* rows of the strip of energies with the axis */
+#define PROFILE_ROWS    24  /* rows of the slope above the strips, */
+#define PAIR_ROWS       18  /* and of two slopes next to each other */
 
 static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int columns, int rows,
                         const struct ceduo_picture *picture, const char *description)
@@ -26,6 +30,35 @@ static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int colum
     struct ceduo_page_block *block = ceduo_page_picture(page, svg, columns == HALF_CELLS);
     ceduo_plot_title(&block->text, plot, picture);
     ceduo_text_append(&block->description, description);
+}
+
+/* Append one picture of the slope with its trajectories and, if they are known, the heights and energies of the rocks below
+ * it, on one axis. */
+static void add_slope_picture(struct ceduo_page *page, struct ceduo_picture picture, const char *title, int columns, int rows)
+{
+    struct ceduo_svg *svg = ceduo_svg_create(columns, rows);
+    struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
+    struct ceduo_span span = {0};
+    int strips = picture.snapshot ? HEIGHT_ROWS + ENERGY_ROWS : 0;
+    struct ceduo_area area = {.width = columns, .height = rows - strips};
+    picture.paper = true;
+    picture.span = &span;
+    picture.no_x_axis = strips > 0;
+    ceduo_plot_draw(CEDUO_PLOT_PROFILE, canvas, &area, &picture);
+    picture.trajectories = columns == FULL_CELLS; /* in a smaller picture they would hide the curves */
+    area = (struct ceduo_area){.top = rows - strips, .width = columns, .height = HEIGHT_ROWS};
+    if (strips > 0 && span.width > 0)
+        ceduo_plot_draw(CEDUO_PLOT_HEIGHT, canvas, &area, &picture);
+    picture.no_x_axis = false;
+    area = (struct ceduo_area){.top = rows - ENERGY_ROWS, .width = columns, .height = ENERGY_ROWS};
+    if (strips > 0 && span.width > 0)
+        ceduo_plot_draw(CEDUO_PLOT_ENERGY, canvas, &area, &picture);
+    struct ceduo_page_block *block = ceduo_page_picture(page, svg, columns == HALF_CELLS);
+    ceduo_text_append(&block->text, title);
+    ceduo_text_append(&block->description,
+                      _("Side view of the slope with the forest, and below it on the same axis the height of the rocks above "
+                        "the ground and their energy, with and without forest. Thin lines: trajectories of some rocks. "
+                        "Upright lines: controls."));
 }
 
 static struct ceduo_picture make_picture(const struct ceduo_report *report, size_t option)
@@ -87,6 +120,39 @@ static void add_uncertainty(struct ceduo_page *page, const struct ceduo_report *
         ceduo_text_append_joined(text, " ", "%s", _("The answer is the same in all of these cases."));
 }
 
+/* Append the answer of the best of several options. */
+static void add_headline(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    size_t best = ceduo_result_best(r, report->verdict);
+    LOCAL_TEXT(answer);
+    if (r->scene->options_count < 2 || ceduo_page_is_unassessable(r) || !r->wooded || !report->verdict)
+        return;
+    const struct ceduo_subject s = ceduo_subject_find(report, best, r->last_control);
+    if (s.outcome.answer == CEDUO_UNANSWERED)
+        return;
+    ceduo_words_answer(&answer, &s, SIZE_MAX);
+    ceduo_page_para(page, CEDUO_PAGE_ANSWER, _("%s, with the best option, '%s'"), ceduo_text_string(&answer),
+                    r->scene->options[best].name);
+}
+
+/* Give the box of the answer its role. */
+static void colour_answer(const struct ceduo_page *page, const struct ceduo_report *report)
+{
+    static const enum ceduo_role roles[] = {[CEDUO_YES] = CEDUO_ROLE_GOOD,
+                                            [CEDUO_NO] = CEDUO_ROLE_BAD,
+                                            [CEDUO_NOT_DECIDED] = CEDUO_ROLE_WARN,
+                                            [CEDUO_DEPENDS] = CEDUO_ROLE_WARN};
+    const struct ceduo_result *r = report->result;
+    if (r->scene->controls_count == 0)
+        return;
+    enum ceduo_judgement answer =
+        ceduo_report_outcome(report, ceduo_result_best(r, report->verdict), r->last_control).answer;
+    for (struct ceduo_page_block *b = page->first; b; b = b->next)
+        if (b->kind == CEDUO_PAGE_ANSWER && answer < sizeof roles / sizeof roles[0])
+            b->role = roles[answer];
+}
+
 /* Append the head of the scene. Date and signature are always present. */
 static void add_head(struct ceduo_page *page, const struct ceduo_report_head *head)
 {
@@ -98,26 +164,28 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
             ceduo_text_append(ceduo_page_item(page, CEDUO_PAGE_HEAD, lines[i][0]), lines[i][1] ? lines[i][1] : "");
 }
 
-#define SLOPE_ROWS 19
-#define SLOPE_MIN  12 /* if tables of several options follow */
-#define STRIP_ROWS 10
-
+/* Append the slope with the best option, and next to it the present one, which is the first. */
 static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    struct ceduo_picture picture = make_picture(report, ceduo_result_best(report->result, report->verdict));
-    size_t options = report->result->scene->options_count;
-    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
-    ceduo_page_facts(page, report);
-    add_picture(page, CEDUO_PLOT_PROFILE, FULL_CELLS, options > 1 ? SLOPE_MIN : SLOPE_ROWS, &picture,
-                _("Side view of the slope with the forest. Thin lines: trajectories of some rocks. Upright lines: controls."));
-    picture.trajectories = true;
-    if (report->snapshot && !is_crowded(report))
-        add_picture(page, CEDUO_PLOT_HEIGHT, FULL_CELLS, STRIP_ROWS, &picture,
-                    _("Height above ground of the same trajectories along the slope, with the median and the 95th percentile, "
-                      "with and without forest."));
-    if (report->snapshot && report->result->scene->controls_count > 0 && options == 1)
-        add_picture(page, CEDUO_PLOT_ENERGY, FULL_CELLS, STRIP_ROWS, &picture,
-                    _("Mean and 95th percentile of the energy of passing rocks along the slope, with and without forest."));
+    const struct ceduo_scene *scene = report->result->scene;
+    const size_t present = 0, best = ceduo_result_best(report->result, report->verdict);
+    bool pair = best != present;
+    int columns = pair ? HALF_CELLS : FULL_CELLS, rows = (pair ? PAIR_ROWS : PROFILE_ROWS) + HEIGHT_ROWS + ENERGY_ROWS;
+    struct ceduo_picture picture = make_picture(report, best);
+    LOCAL_TEXT(title);
+    if (scene->options_count < 2)
+        ceduo_plot_title(&title, CEDUO_PLOT_PROFILE, &picture);
+    else
+        ceduo_text_format(&title, pair ? _("Recommended: %s") : _("Recommended, and present: %s"), scene->options[best].name);
+    picture.compared = pair ? &present : NULL;
+    add_slope_picture(page, picture, ceduo_text_string(&title), columns, rows);
+    if (!pair)
+        return;
+    picture = make_picture(report, present);
+    picture.compared = &best;
+    ceduo_text_cut(&title, 0);
+    ceduo_text_format(&title, _("Present: %s"), scene->options[present].name);
+    add_slope_picture(page, picture, title.bytes, columns, rows);
 }
 
 /* Append percentiles of the drawn option. A single option has them with its other figures. */
@@ -246,15 +314,18 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     add_head(page, &scene->page);
     ceduo_page_question(page, report->result);
+    add_headline(page, report);
     ceduo_page_answer(page, report);
     add_uncertainty(page, report);
+    colour_answer(page, report);
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
     ceduo_page_fence_answer(page, report, false);
     add_slope(page, report);
+    ceduo_page_facts(page, report);
     add_option_percentiles(page, report);
     if (several && controls) {
-        struct ceduo_picture picture = make_picture(report, 0);
+        struct ceduo_picture picture = make_picture(report, ceduo_result_best(report->result, report->verdict));
         ceduo_page_comparison(page, report);
         if (!ceduo_report_has_hazard(report) &&
             scene->options_count <= CROWDED_OPTIONS) /* the table of frequencies replaces it */
