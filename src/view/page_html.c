@@ -113,7 +113,7 @@ static const char style[] =
     "ul{margin:1mm 0;padding-left:5mm}\n"
     "table{border-collapse:collapse;width:100%;margin:1.2mm 0 2mm;font-size:8.25pt;line-height:1.18;"
     "font-variant-numeric:tabular-nums;break-inside:avoid}\n"
-    "caption{text-align:left;padding-bottom:1mm;color:#4a4a4a}\n"
+    "caption{text-align:left;padding-bottom:1mm;font-size:9pt;font-weight:bold}\n"
     "th,td{padding:.5mm 1.2mm;text-align:left;vertical-align:top;border-bottom:.2mm solid "
     "#c9cfc4;overflow-wrap:break-word}\n"
     "thead th,thead td{border-bottom:.35mm solid #4a4a4a;vertical-align:bottom;font-weight:bold}\n"

@@ -307,7 +307,8 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
     size_t rest = 0;
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (r->file->scene.options_count > 1)
-        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Inputs that decide '%s':"), r->file->scene.options[f->option].name);
+        ceduo_page_para(page, f->fit.enough_points ? CEDUO_PAGE_CAPTION : CEDUO_PAGE_SENTENCE, _("Inputs that decide '%s':"),
+                        r->file->scene.options[f->option].name);
     if (!f->fit.enough_points) {
         ceduo_page_note(page, _("Too few points to rank the inputs; use more (--sensitivity=N)."));
         return;
@@ -421,6 +422,28 @@ void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncerta
         ceduo_text_format(text, _("The test of %s depends on %s."), _(ceduo_light_names[light]), ceduo_text_string(&causes));
 }
 
+/* Append a light that changes in plausible cases, with all options that have the same causes, at the first of them. */
+static void add_light(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, size_t option, size_t light)
+{
+    const struct ceduo_scene *s = &r->file->scene;
+    LOCAL_TEXT(sentence);
+    LOCAL_TEXT(options);
+    ceduo_uncertainty_light_words(&sentence, r, option, light);
+    for (size_t i = 0; sentence.length > 0 && i < s->options_count; i++) {
+        LOCAL_TEXT(other);
+        ceduo_uncertainty_light_words(&other, r, i, light);
+        if (strcmp(ceduo_text_string(&other), sentence.bytes) != 0)
+            continue;
+        if (i < option)
+            return;
+        ceduo_text_append_joined(&options, options.length > 0 ? ", " : "", "'%s'", s->options[i].name);
+    }
+    if (sentence.length > 0 && s->options_count > 1)
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s: %s", options.bytes, sentence.bytes);
+    else if (sentence.length > 0)
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", sentence.bytes);
+}
+
 /* ---- ranking of options ---- */
 
 #define CLEAR_MIN  0.95
@@ -471,7 +494,6 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
 {
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_control *c = &s->controls[ceduo_scene_last_control(s)];
-    bool several = s->options_count > 1;
     const char *place = c->name ? c->name : "";
     if (r->answer->main == CEDUO_UNCERTAINTY_EXCEED)
         ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m: rocks of 1000 with more than %g kJ"), place,
@@ -488,14 +510,9 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     ceduo_uncertainty_advice(&advice, r, figure, 3);
     if (advice.length > 0)
         ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
-    for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change in plausible cases */
-        LOCAL_TEXT(words);
-        ceduo_uncertainty_light_words(&words, r, i / 3, i % 3);
-        if (words.length > 0 && several)
-            ceduo_page_para(page, CEDUO_PAGE_ITEM, "'%s': %s", s->options[i / 3].name, words.bytes);
-        else if (words.length > 0)
-            ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", words.bytes);
-    }
+    for (size_t light = 0; light < 3; light++)
+        for (size_t i = 0; i < s->options_count; i++)
+            add_light(page, r, i, light);
     if (r->answer->rotation && all) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
         struct ceduo_uncertainty_report rotation = *r;

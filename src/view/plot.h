@@ -57,7 +57,7 @@ struct ceduo_picture {
     X(HEIGHT, height, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_CELLS, N_("height of the rocks above the ground"))               \
     X(HISTOGRAM, histogram, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_PAGE, N_("energy at %s"))                                  \
     X(ROTATION, rotation, CEDUO_PICTURE_YEARS_RUN, N_("year by year, up to %s"))                                               \
-    X(YEARS, years, CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_YEARS_RUN, N_("All options over the years, up to %s"))           \
+    X(YEARS, years, CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_YEARS_RUN, N_("Over the years, up to %s"))                       \
     X(STAND, stand, 0, N_("%s, from above"))                                                                                   \
     X(COMPARE, compare, CEDUO_PICTURE_ALL_OPTIONS_RUN | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))              \
     X(TRADEOFF, tradeoff, CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_YEARS_RUN,                                                 \
@@ -109,6 +109,9 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
 /* Draw observed stops next to simulated ones; requires no run. `origin`: x of the slope's start in the user's coordinates. */
 void ceduo_plot_observed(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_observed_stops *stops,
                          double origin);
+
+/* Return the rows of small pictures of the years in a wide area. */
+int ceduo_plot_years_down(size_t options);
 
 /* Append one line that describes the picture. */
 void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *picture);

@@ -245,7 +245,8 @@ static void draw_caption(const struct strip *s, const struct content *content)
     LOCAL_TEXT(words);
     ceduo_text_append_joined(&words, "; ", _("%s up to %s %s, at %s m"), _(s->peak_name), SIG(s->peak, 3),
                              s->energy ? _("kJ") : _("m"), SIG(s->peak_x + s->d->scene->slope.origin_x, 3));
-    ceduo_canvas_draw_text(canvas, column, row, end - column, CEDUO_ROLE_WARN, words.bytes);
+    if (!s->d->picture->paper || ceduo_canvas_label_width(canvas, words.bytes) <= end - column)
+        ceduo_canvas_draw_text(canvas, column, row, end - column, CEDUO_ROLE_WARN, words.bytes);
 }
 
 #define LIMIT_COLUMNS 16 /* max columns of the limit */

@@ -10,23 +10,17 @@
 
 #define PANEL_WIDTH  26 /* min columns of a small picture */
 #define PANEL_HEIGHT 7  /* min rows: name, cuts, curve, axis */
-#define PANELS_MAX   4  /* max small pictures in a row */
+#define PANELS_MAX   3  /* max small pictures in a row */
+
+int ceduo_plot_years_down(size_t options)
+{
+    return ((int)options + PANELS_MAX - 1) / PANELS_MAX;
+}
 
 /* Return how many of 1000 rocks are judged in a year; NaN: not simulated. */
 static double find_share(const struct ceduo_year *year, size_t control)
 {
     return year->wooded.rocks > 0 ? 1000 * ceduo_judged_share(&year->wooded.arrivals[control]).mean : NAN;
-}
-
-/* Return the columns of the widest name. */
-static int find_widest(const struct ceduo_drawing *d)
-{
-    int widest = 0;
-    for (size_t i = 0; i < d->scene->options_count; i++) {
-        int width = ceduo_canvas_label_width(d->canvas, d->scene->options[i].name);
-        widest = width > widest ? width : widest;
-    }
-    return widest;
 }
 
 /* Return the top of the scale: the largest share of all options, and the limit. */
@@ -59,8 +53,9 @@ static void draw_panel(struct ceduo_drawing *d, const struct ceduo_area *area, s
                                     .x1 = last > x[0] ? last : x[0] + 1,
                                     .x_integer = true,
                                     .y1 = top};
-    ceduo_plot_print(d->canvas, area->left, area->top, area->width - 1, best ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, "%s%zu %s",
-                     best ? "\xe2\x96\xb8" : "", option + 1, d->scene->options[option].name);
+    if (d->scene->options_count > 1)
+        ceduo_plot_print(d->canvas, area->left, area->top, area->width - 1, best ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT,
+                         "%s%zu %s", best ? "\xe2\x96\xb8" : "", option + 1, d->scene->options[option].name);
     if (!isnan(limit))
         ceduo_canvas_rule_y(d->canvas, &d->frame, CEDUO_ROLE_CONTROL, limit);
     ceduo_canvas_stairs(d->canvas, &d->frame, CEDUO_ROLE_MEAN, years->count, x, y);
@@ -84,10 +79,10 @@ const char *ceduo_plot_years(struct ceduo_drawing *d)
         return !d->control ? _("no control")
                : !known    ? _("not computed yet")
                            : _("nothing to compare: no rocks are simulated among stems");
-    int widest = find_widest(d) + 4, width = widest > PANEL_WIDTH ? widest : PANEL_WIDTH, across = d->area.width / width;
+    int across = d->area.width / PANEL_WIDTH;
     across = across > PANELS_MAX ? PANELS_MAX : across;
     across = across > (int)n ? (int)n : across;
-    int down = across > 0 ? ((int)n + across - 1) / across : 0, height = down > 0 ? (d->area.height - 1) / down : 0;
+    int down = across > 0 ? ((int)n + across - 1) / across : 0, height = down > 0 ? (d->area.height - 2) / down : 0;
     if (height < PANEL_HEIGHT)
         return _("too narrow");
     double accepted = d->control->accepted * J_TO_KJ;
@@ -100,7 +95,7 @@ const char *ceduo_plot_years(struct ceduo_drawing *d)
                          _("of 1000 released with > %g kJ (limit %g)"), accepted, limit);
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_area panel = {.left = d->area.left + (int)i % across * (d->area.width / across),
-                                         .top = d->area.top + 1 + (int)i / across * height,
+                                         .top = d->area.top + 2 + (int)i / across * height,
                                          .width = d->area.width / across,
                                          .height = height};
         draw_panel(d, &panel, i, top, limit, v && v->rotation.known && i == v->rotation.best);
