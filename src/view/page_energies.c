@@ -60,7 +60,7 @@ void ceduo_page_energies(struct ceduo_page *page, const struct ceduo_report *rep
         return;
     LOCAL_TEXT(place);
     ceduo_words_place(&place, s.place);
-    ceduo_text_format(add_row(&rows, ceduo_words_accepted(s.place), _("scene")), _("limit of %s"), place.bytes);
+    ceduo_text_format(add_row(&rows, ceduo_words_accepted(s.place), _("scene")), _("limit at %s"), place.bytes);
     rows.items[0].limit = true;
     ceduo_text_append(add_row(&rows, arrival_kJ(CEDUO_MEAN_KJ, s.wooded), _("simulated")),
                       _("rocks that arrive with forest, mean"));

@@ -175,7 +175,8 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
     const size_t present = 0, best = ceduo_result_best(report->result, report->verdict);
     bool pair = best != present;
     int columns = pair ? HALF_CELLS : FULL_CELLS;
-    int rows = (is_crowded(report) ? CROWDED_ROWS : pair ? PAIR_ROWS : PROFILE_ROWS) + HEIGHT_ROWS + ENERGY_ROWS;
+    int profile = scene->options_count > CROWDED_OPTIONS ? CROWDED_ROWS : pair ? PAIR_ROWS : PROFILE_ROWS;
+    int rows = profile + HEIGHT_ROWS + ENERGY_ROWS;
     struct ceduo_picture picture = make_picture(report, best);
     LOCAL_TEXT(title);
     if (scene->options_count < 2)

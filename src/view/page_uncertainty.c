@@ -526,9 +526,12 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     uint64_t rocks;
     make_measure(r, 0, &rocks);
     ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                    _("Sampling error: %llu rocks; more rocks reduce it. 90 %% range: uncertain inputs; only measurements "
-                      "reduce it. Scenes computed: %llu."),
-                    (unsigned long long)rocks, (unsigned long long)r->answer->evaluations);
+                    ngettext("Sampling error: %lu rock; more rocks reduce it. 90 %% range: uncertain inputs; only measurements "
+                             "reduce it. Scenes computed: %llu.",
+                             "Sampling error: %lu rocks; more rocks reduce it. 90 %% range: uncertain inputs; only "
+                             "measurements reduce it. Scenes computed: %llu.",
+                             (unsigned long)rocks),
+                    (unsigned long)rocks, (unsigned long long)r->answer->evaluations);
     LOCAL_TEXT(points);
     ceduo_uncertainty_points(&points, r);
     if (points.length > 0)

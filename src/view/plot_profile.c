@@ -192,13 +192,14 @@ static bool is_clear_space(const struct ceduo_canvas *canvas, const struct ceduo
     return is_clear;
 }
 
-/* Find the highest free row right or left of the rule of a control, and the first column of the text. False if none is free. */
-static bool find_rule_space(const struct ceduo_drawing *d, double x, const char *text, int *start, int *row)
+/* Find the highest free row right or left of the rule of a control, of the first `rows`, and the first column of the text. False
+ * if none is free. */
+static bool find_rule_space(const struct ceduo_drawing *d, double x, const char *text, int rows, int *start, int *row)
 {
     int column, width = ceduo_canvas_label_width(d->canvas, text);
     if (!ceduo_frame_cell(&d->frame, d->canvas, x, d->frame.y0, &column, row))
         return false;
-    for (int i = 0; i < 2 * NAME_ROWS && i < 2 * d->area.height; i++) {
+    for (int i = 0; i < 2 * rows && i < 2 * d->area.height; i++) {
         *start = i % 2 ? column - 1 - width : column + 2;
         *row = d->area.top + i / 2;
         if (is_clear_space(d->canvas, &d->area, *start, *row, width))
@@ -213,7 +214,7 @@ static void label_control(const struct ceduo_drawing *d, const struct ceduo_cont
     LOCAL_TEXT(name);
     int column, row, start, unused;
     ceduo_words_place(&name, control);
-    if (!find_rule_space(d, control->x, name.bytes, &start, &row))
+    if (!find_rule_space(d, control->x, name.bytes, NAME_ROWS, &start, &row))
         return;
     bool marked = d->picture->mark && fabs(*d->picture->mark - control->x) < 1e-9;
     ceduo_canvas_label(d->canvas, start, row, marked ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_CONTROL, name.bytes);
@@ -223,19 +224,15 @@ static void label_control(const struct ceduo_drawing *d, const struct ceduo_cont
 }
 
 /* Draw the line of an angle from a point to the control, and write its name with a sample of the line. */
-static void draw_angle(const struct ceduo_drawing *d, enum ceduo_stroke stroke, double x, double height, const char *sample,
-                       const char *format, double angle)
+static void draw_angle(const struct ceduo_drawing *d, enum ceduo_stroke stroke, double x, double height, const char *name)
 {
     const struct ceduo_slope *slope = &d->scene->slope;
     const double xs[2] = {x, d->control->x},
                  zs[2] = {ceduo_slope_height(slope, x) + height, ceduo_slope_height(slope, d->control->x)};
     int start, row;
-    LOCAL_TEXT(name);
     ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_TITLE, stroke, 2, xs, zs);
-    ceduo_text_append(&name, sample);
-    ceduo_text_append_with(&name, format, SIG(angle * DEGREES, 2));
-    if (find_rule_space(d, d->control->x, name.bytes, &start, &row))
-        ceduo_canvas_label(d->canvas, start, row, CEDUO_ROLE_TITLE, name.bytes);
+    if (find_rule_space(d, d->control->x, name, d->area.height / 2, &start, &row))
+        ceduo_canvas_label(d->canvas, start, row, CEDUO_ROLE_TITLE, name);
 }
 
 /* Draw the reach angle and the shadow angle of the control. */
@@ -243,13 +240,17 @@ static void draw_angles(const struct ceduo_drawing *d)
 {
     const struct ceduo_release *release = &d->scene->release;
     const struct ceduo_topography *t = d->bare_arrivals ? ceduo_topography_find(d->bare_arrivals) : NULL;
+    LOCAL_TEXT(reach);
+    LOCAL_TEXT(shadow);
     if (!t)
         return;
-    draw_angle(d, CEDUO_STROKE_DASHES, release->x.mean, release->height.mean, "\xe2\x94\x80 \xe2\x94\x80 ",
-               _("reach angle %s\xc2\xb0"), t->reach);
+    ceduo_text_append(&reach, "\xe2\x94\x80 \xe2\x94\x80 ");
+    ceduo_text_format(&reach, _("reach angle %.0f\xc2\xb0"), t->reach * DEGREES);
+    draw_angle(d, CEDUO_STROKE_DASHES, release->x.mean, release->height.mean, reach.bytes);
+    ceduo_text_append(&shadow, "\xe2\x94\x84\xe2\x94\x84\xe2\x94\x84 ");
+    ceduo_text_format(&shadow, _("shadow angle %.0f\xc2\xb0"), t->shadow * DEGREES);
     if (!isnan(t->shadow))
-        draw_angle(d, CEDUO_STROKE_RULE, t->foot, 0, "\xe2\x94\x84\xe2\x94\x84\xe2\x94\x84 ",
-                   _("shadow angle %s\xc2\xb0"), t->shadow);
+        draw_angle(d, CEDUO_STROKE_RULE, t->foot, 0, shadow.bytes);
 }
 
 /* Write the forest of the trajectories right-aligned in the row with the most free cells. */

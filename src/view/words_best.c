@@ -76,8 +76,11 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
 void ceduo_words_year_numbering(struct text *text, uint64_t rocks)
 {
     if (rocks > 0)
-        ceduo_text_format(text, _("Years are counted from today, with %llu rocks in each; the worst is that of these years."),
-                          (unsigned long long)rocks);
+        ceduo_text_format(text,
+                          ngettext("Years are counted from today, with %lu rock in each; the worst is that of these years.",
+                                   "Years are counted from today, with %lu rocks in each; the worst is that of these years.",
+                                   (unsigned long)rocks),
+                          (unsigned long)rocks);
     else
         ceduo_text_append(text, _("Years are counted from today."));
 }
