@@ -184,9 +184,8 @@ static void append_sampling(struct text *text, const struct ceduo_report *report
         ceduo_text_format(&error, "\xc2\xb1%.0f", ceil(1000 * today));
     }
     if (error.length > 0)
-        ceduo_text_format(
-            text, ngettext("Sampling error (%lu rock): %s.", "Sampling error (%lu rocks): %s.", rocks), rocks,
-            error.bytes);
+        ceduo_text_format(text, ngettext("Sampling error (%lu rock): %s.", "Sampling error (%lu rocks): %s.", rocks), rocks,
+                          error.bytes);
 }
 
 /* Append the uncertainty of the best option, over the rotation if known. */

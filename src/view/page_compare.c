@@ -88,9 +88,9 @@ static const enum column column_sets[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
     [CEDUO_OPTIONS_RETURNS] = {{NAME, RETURN_1, RETURN_2, RETURN_3}, {NAME, RETURN_1, RETURN_2, RETURN_3}},
     [CEDUO_OPTIONS_OF_YEARS] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M},
                                 {NAME, TODAY, ENERGY, MEAN_KJ, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M}},
-    [CEDUO_OPTIONS_REST] = {{NAME, WORST_ADC, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING},
-                            {NAME, ENERGY, TO_FIRST, CONTACT, FREE_RUN_SHARE, FREE_RUN, FAIL_CONTACT, FAIL_FREE_RUN, ROTATION,
-                             STANDING}}};
+    [CEDUO_OPTIONS_REST] = {
+        {NAME, WORST_ADC, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING},
+        {NAME, ENERGY, TO_FIRST, CONTACT, FREE_RUN_SHARE, FREE_RUN, FAIL_CONTACT, FAIL_FREE_RUN, ROTATION, STANDING}}};
 
 /* ---- cells ---- */
 
@@ -397,7 +397,8 @@ void ceduo_page_options(struct ceduo_page *page, const struct ceduo_report *repo
         if (s.index && i >= first && i < end && (kind != CEDUO_OPTIONS_LAWS || s.wooded))
             add_option_row(page, set, &s, scales, i == cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
     }
-    if (kind != CEDUO_OPTIONS_TODAY && kind != CEDUO_OPTIONS_YEARS && kind != CEDUO_OPTIONS_REST && kind != CEDUO_OPTIONS_PANE && kind != CEDUO_OPTIONS_LAWS)
+    if (kind != CEDUO_OPTIONS_TODAY && kind != CEDUO_OPTIONS_YEARS && kind != CEDUO_OPTIONS_REST &&
+        kind != CEDUO_OPTIONS_PANE && kind != CEDUO_OPTIONS_LAWS)
         add_option_row(page, set, &bare, scales, CEDUO_ROLE_TEXT, _("without forest"));
     for (size_t k = 0; set[k]; k++)
         if (set[k] == BAR) { /* the limit is the head of its bars */

@@ -54,7 +54,7 @@ void ceduo_page_energies(struct ceduo_page *page, const struct ceduo_report *rep
     const struct ceduo_result *r = report->result;
     const struct ceduo_subject s = ceduo_subject_find(report, option, r->last_control);
     double car = 0.5 * CAR_MASS * pow(CAR_KM_H / 3.6, 2) * J_TO_KJ;
-    double most = fmax(arrival_kJ(CEDUO_P95_KJ, s.bare), fmax(car, s.place->accepted * J_TO_KJ));
+    double max_kJ = fmax(arrival_kJ(CEDUO_P95_KJ, s.bare), fmax(car, s.place->accepted * J_TO_KJ));
     struct rows rows = {0};
     if (isnan(s.place->accepted))
         return;
@@ -68,12 +68,13 @@ void ceduo_page_energies(struct ceduo_page *page, const struct ceduo_report *rep
                       _("rocks that arrive with forest, 95 % are below"));
     ceduo_text_append(add_row(&rows, arrival_kJ(CEDUO_P95_KJ, s.bare), _("simulated")),
                       _("rocks that arrive without forest, 95 % are below"));
-    ceduo_text_format(add_row(&rows, car, _("half the mass times the speed squared")), _("car of %.0f kg at %.0f km/h"), CAR_MASS,
-                      CAR_KM_H);
+    ceduo_text_format(add_row(&rows, car, _("half the mass times the speed squared")), _("car of %.0f kg at %.0f km/h"),
+                      CAR_MASS, CAR_KM_H);
     for (int k = 0; k + 1 < CEDUO_FENCE_CLASSES; k++)
-        if (k <= CLASS_SHOWN || ceduo_fence_class_energy[k - 1] * J_TO_KJ < most)
-            ceduo_text_format(add_row(&rows, ceduo_fence_class_energy[k] * J_TO_KJ, _("ETAG 027: one impact at its limit (MEL)")),
-                              _("net fence of class %d"), k);
+        if (k <= CLASS_SHOWN || ceduo_fence_class_energy[k - 1] * J_TO_KJ < max_kJ)
+            ceduo_text_format(
+                add_row(&rows, ceduo_fence_class_energy[k] * J_TO_KJ, _("ETAG 027: one impact at its limit (MEL)")),
+                _("net fence of class %d"), k);
     qsort(rows.items, rows.n, sizeof rows.items[0], compare_rows);
     ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s", _("Energies, and fences that withstand them (▸ the limit):"));
     CEDUO_PAGE_TABLE_OF(page, columns);

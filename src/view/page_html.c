@@ -237,7 +237,7 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
                                     [CEDUO_PAGE_POINT] = {"dl", NULL},
                                     [CEDUO_PAGE_HEAD] = {"dl", "head"},
                                     [CEDUO_PAGE_ANSWER] = {"div", "answer"}};
-    /* class of an answer; its border tells it without colour */
+    /* class of an answer; the borders differ, too, for prints in grey */
     static const char *const answers[CEDUO_ROLE_COUNT] = {
         [CEDUO_ROLE_GOOD] = "answer yes", [CEDUO_ROLE_BAD] = "answer no", [CEDUO_ROLE_WARN] = "answer depends"};
     size_t pictures = 0;

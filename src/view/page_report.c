@@ -105,8 +105,7 @@ static void add_uncertainty(struct ceduo_page *page, const struct ceduo_report *
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
     const char *phrase = MEASURE_NAME(m, CEDUO_PHRASE);
     if (several)
-        ceduo_text_append_joined(text, "",
-                                 _("With '%s', in nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."),
+        ceduo_text_append_joined(text, "", _("With '%s', in nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."),
                                  r->scene->options[option].name, m.p5, m.p95, phrase);
     else
         ceduo_text_append_joined(text, "", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.p5,
@@ -114,7 +113,7 @@ static void add_uncertainty(struct ceduo_page *page, const struct ceduo_report *
     if (!several && o.over_years && o.uncertain && r->scene->blocks_count == 0)
         ceduo_text_append_joined(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
                                  o.failing_hi, report->verdict->choices[option].last_summary->years);
-    if (!several && o.answer == CEDUO_DEPENDS) /* of several options the first sentence says so */
+    if (!several && o.answer == CEDUO_DEPENDS) /* with several options it is in the first sentence */
         ceduo_text_append_joined(text, " ", "%s",
                                  _("Some of these cases keep within the limit and some do not: the answer depends on "
                                    "uncertain inputs."));
@@ -150,8 +149,7 @@ static void colour_answer(const struct ceduo_page *page, const struct ceduo_repo
     const struct ceduo_result *r = report->result;
     if (r->scene->controls_count == 0)
         return;
-    enum ceduo_judgement answer =
-        ceduo_report_outcome(report, ceduo_result_best(r, report->verdict), r->last_control).answer;
+    enum ceduo_judgement answer = ceduo_report_outcome(report, ceduo_result_best(r, report->verdict), r->last_control).answer;
     for (struct ceduo_page_block *b = page->first; b; b = b->next)
         if (b->kind == CEDUO_PAGE_ANSWER && answer < sizeof roles / sizeof roles[0])
             b->role = roles[answer];

@@ -564,8 +564,8 @@ static void add_assumption(struct ceduo_page *page, const struct ceduo_report *r
     ceduo_text_append(&merged, ceduo_text_string(&numbers));
     ceduo_text_append(&merged, s.after);
     if (count > 1)
-        ceduo_page_para(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", count - 1), merged.bytes,
-                        place, count - 1);
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", count - 1),
+                        merged.bytes, place, count - 1);
     else
         ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s (%s)", sentence, place);
 }

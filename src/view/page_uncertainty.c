@@ -430,9 +430,9 @@ static void add_light(struct ceduo_page *page, const struct ceduo_uncertainty_re
     LOCAL_TEXT(options);
     ceduo_uncertainty_light_words(&sentence, r, option, light);
     for (size_t i = 0; sentence.length > 0 && i < s->options_count; i++) {
-        LOCAL_TEXT(other);
-        ceduo_uncertainty_light_words(&other, r, i, light);
-        if (strcmp(ceduo_text_string(&other), sentence.bytes) != 0)
+        LOCAL_TEXT(compared);
+        ceduo_uncertainty_light_words(&compared, r, i, light);
+        if (strcmp(ceduo_text_string(&compared), sentence.bytes) != 0)
             continue;
         if (i < option)
             return;

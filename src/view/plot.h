@@ -37,8 +37,8 @@ struct ceduo_picture {
     bool no_x_axis;                                     /* another picture of the slope is below */
     bool trajectories;                                  /* the strip of heights shows each trajectory, too */
     bool paper; /* for a printed page: as wide as the area, with the angles of the control and the limit, in plain words */
-    const size_t *compared;                             /* option whose values set the scales, too; NULL: none */
-    struct ceduo_years *const *years_of_options;        /* one per option; NULL: not computed */
+    const size_t *compared;                      /* option whose values set the scales, too; NULL: none */
+    struct ceduo_years *const *years_of_options; /* one per option; NULL: not computed */
 };
 
 /* The pictures: name, word, flags, title (%s: the control or the belt).

@@ -131,12 +131,12 @@ static double read_compared(const struct strip *s, const struct content *content
 {
     const size_t *compared = s->d->picture->compared;
     struct ceduo_drawing drawing = *s->d;
-    struct strip other = *s;
-    other.d = &drawing;
+    struct strip strip = *s;
+    strip.d = &drawing;
     drawing.run = compared ? ceduo_snapshot_find(s->d->picture->snapshot, s->d->scene, *compared) : NULL;
-    double usual = drawing.run ? read_curves(&other, content) : NAN;
-    *peak = other.peak;
-    free_curves(&other);
+    double usual = drawing.run ? read_curves(&strip, content) : NAN;
+    *peak = strip.peak;
+    free_curves(&strip);
     return usual;
 }
 
@@ -250,8 +250,8 @@ static void draw_caption(const struct strip *s, const struct content *content)
 }
 
 #define LIMIT_COLUMNS 16 /* max columns of the limit */
-#define FULL_ROWS  8  /* min rows for four curves */
-#define FULL_WIDTH 56 /* min columns, next to the names */
+#define FULL_ROWS     8  /* min rows for four curves */
+#define FULL_WIDTH    56 /* min columns, next to the names */
 
 static const char *draw_strip(struct ceduo_drawing *d, bool energy)
 {

@@ -36,7 +36,8 @@ static double find_top(const struct ceduo_drawing *d, double limit)
 }
 
 /* Draw an option. `best`: it is marked. */
-static void draw_panel(struct ceduo_drawing *d, const struct ceduo_area *area, size_t option, double top, double limit, bool best)
+static void draw_panel(struct ceduo_drawing *d, const struct ceduo_area *area, size_t option, double top, double limit,
+                       bool best)
 {
     const struct ceduo_years *years = d->picture->years_of_options[option];
     double *x = ceduo_check_memory(malloc(2 * (years->count + 1) * sizeof *x)), *y = x + years->count + 1;

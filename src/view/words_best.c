@@ -231,7 +231,7 @@ void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo
     if (n == 0)
         return;
     ceduo_text_format(&sentence,
-                      _("The order of %zu options depends on the energy law. Of 1000 by the law of the scene, and by %s: %s."), n,
-                      law, options.bytes);
+                      _("The order of %zu options depends on the energy law. Of 1000 by the law of the scene, and by %s: %s."),
+                      n, law, options.bytes);
     sink(context, sentence.bytes);
 }
