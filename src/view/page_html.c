@@ -81,12 +81,12 @@ void ceduo_html_leaf(struct ceduo_html *html, const char *name, const char *text
 static const char style[] =
     "@page{size:A4;margin:10mm 13mm}\n"
     "*{box-sizing:border-box}\n"
-    "html{background:#fff;color:#1c1c1c;font:9pt/1.26 'Liberation "
+    "html{background:#fff;color:#1c1c1c;font:9pt/1.24 'Liberation "
     "Sans',Arial,Helvetica,sans-serif;-webkit-print-color-adjust:exact;"
     "print-color-adjust:exact}\n"
     "body{max-width:184mm;margin:0 auto}\n"
     "h1{font-size:17pt;line-height:1.2;margin:2mm 0 2mm;overflow-wrap:anywhere}\n"
-    "h2{font-size:11.5pt;line-height:1.2;margin:2.4mm 0 1mm;padding-bottom:.5mm;border-bottom:.3mm solid "
+    "h2{font-size:11.5pt;line-height:1.2;margin:2mm 0 1mm;padding-bottom:.5mm;border-bottom:.3mm solid "
     "#14532d;color:#14532d;"
     "overflow-wrap:anywhere}\n"
     "h3{font-size:10.5pt;margin:3mm 0 1mm;overflow-wrap:anywhere}\n"
@@ -118,8 +118,10 @@ static const char style[] =
     "#c9cfc4;overflow-wrap:break-word}\n"
     "thead th,thead td{border-bottom:.35mm solid #4a4a4a;vertical-align:bottom;font-weight:bold}\n"
     "tbody th{font-weight:normal;min-width:45mm}\n"
-    ".best th,.best td{font-weight:bold;background:#e6f0fa}\n"
-    ".n{text-align:right;white-space:nowrap}\n"
+    ".best th{font-weight:bold}\n"
+    ".best th,.best td{background:#e6f0fa}\n"
+    ".n,.w{white-space:nowrap}\n"
+    ".n{text-align:right}\n"
     "thead .n{white-space:normal}\n"
     "figure{margin:2mm 0;break-inside:avoid}\n"
     ".half{display:inline-block;width:49%;vertical-align:top}\n"
@@ -185,8 +187,11 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
                 ceduo_page_write_cell(&text, &table->cells[row + i], CELL_WIDTH, false);
             const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
             const char *scope = name[1] != 'h' ? NULL : row == 0 ? "col" : "row";
+            /* numbers, and words of narrow columns, which do not wrap */
+            const struct ceduo_page_column *column = &table->columns[i];
+            bool word = row > 0 && i > 0 && column->width > 0 && !(column->flags & (COL_WRAP | COL_GROW));
             ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class",
-                            table->columns[i].width < 0 ? "n" : NULL, NULL);
+                            column->width < 0 ? "n" : word ? "w" : NULL, NULL);
         }
         ceduo_html_close(html);
         if (row == 0)

@@ -535,7 +535,7 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     LOCAL_TEXT(points);
     ceduo_uncertainty_points(&points, r);
     if (points.length > 0)
-        ceduo_page_para(page, CEDUO_PAGE_NOTE, "%s", points.bytes);
+        ceduo_text_append_joined(&page->last->text, " ", "%s", points.bytes);
 }
 
 void ceduo_uncertainty_page(struct text *text, const struct ceduo_uncertainty_report *r, bool plain)
