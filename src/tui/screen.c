@@ -108,16 +108,16 @@ static void draw_verdict(struct app *app)
         return;
     struct ceduo_subject subject = ceduo_subject_find(ceduo_app_report(app), app->option, r->last_control);
     enum ceduo_judgement judgement = subject.outcome.answer;
-    bool open = judgement != CEDUO_CANNOT_JUDGE && judgement != CEDUO_UNANSWERED;
+    bool open = judgement != CEDUO_JUDGEMENT_CANNOT_JUDGE && judgement != CEDUO_JUDGEMENT_UNANSWERED;
     double share = open ? ceduo_live_uncertainty_progress(&app->live, &app->document.file, app->option) : NAN;
     const char *progress = isnan(share) ? "" : ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
     subject.preliminary = !isnan(share);
     ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE - ceduo_utf8_width(progress));
     ceduo_canvas_draw_text(&app->cells->canvas, 1, 1, app->width - 1,
-                           judgement == CEDUO_UNANSWERED ? CEDUO_ROLE_TITLE
-                           : judgement == CEDUO_YES      ? CEDUO_ROLE_GOOD
-                           : judgement == CEDUO_NO       ? CEDUO_ROLE_BAD
-                                                         : CEDUO_ROLE_WARN,
+                           judgement == CEDUO_JUDGEMENT_UNANSWERED ? CEDUO_ROLE_TITLE
+                           : judgement == CEDUO_JUDGEMENT_YES      ? CEDUO_ROLE_GOOD
+                           : judgement == CEDUO_JUDGEMENT_NO       ? CEDUO_ROLE_BAD
+                                                                   : CEDUO_ROLE_WARN,
                            answer.bytes);
     ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 1, CEDUO_ROLE_DIM, progress);
 }

@@ -6,6 +6,7 @@
 
 #include "base/language.h"
 #include "popup.h"
+#include "scene/slope.h"
 #include "view/plot.h"
 
 /* ---- the form ---- */

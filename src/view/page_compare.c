@@ -9,9 +9,16 @@
 #include "base/language.h"
 #include "base/oom.h"
 #include "base/utf8.h"
+#include "core/runs/hazard.h"
+#include "core/runs/result.h"
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
+#include "core/runs/year_runs.h"
 #include "page_parts.h"
 #include "plot.h"
 #include "scene/choices.h"
+#include "scene/derived.h"
+#include "scene/stand.h"
 #include "study/verdict.h"
 
 /* Name, head, width, flags. BAR draws the column after it. */
@@ -186,11 +193,11 @@ static double get_value(enum column column, const struct ceduo_subject *s)
 static enum ceduo_light get_light(enum column column, const struct ceduo_subject *s)
 {
     bool contact = column == ADC || column == CONTACT, energy = column == TODAY || column == ENERGY;
-    return !s->index            ? CEDUO_UNKNOWN
+    return !s->index            ? CEDUO_LIGHT_UNKNOWN
            : contact            ? s->index->contact
            : energy             ? s->index->energy
            : column == FREE_RUN ? s->index->free_run
-                                : CEDUO_UNKNOWN;
+                                : CEDUO_LIGHT_UNKNOWN;
 }
 
 /* Return a share with its error, or the return period if `rates`. */
@@ -318,11 +325,11 @@ static void add_bar(struct ceduo_page *page, enum column column, const struct ce
     double value = get_value(column, s);
     enum ceduo_light light = get_light(column, s);
     if (column == RESIDUAL && s->index && !isnan(limit))
-        light = value <= limit ? CEDUO_PASS : CEDUO_FAIL;
+        light = value <= limit ? CEDUO_LIGHT_PASS : CEDUO_LIGHT_FAIL;
     ceduo_page_bar(page, value,
-                   !s->index                ? CEDUO_ROLE_BARE
-                   : light == CEDUO_UNKNOWN ? CEDUO_ROLE_FOREST
-                                            : ceduo_plot_light_role(light))
+                   !s->index                      ? CEDUO_ROLE_BARE
+                   : light == CEDUO_LIGHT_UNKNOWN ? CEDUO_ROLE_FOREST
+                                                  : ceduo_plot_light_role(light))
         ->limit = limit;
 }
 
@@ -463,7 +470,7 @@ static void add_equal_tests(struct ceduo_page *page, const struct ceduo_result *
 {
     size_t tests = r->wooded && !isnan(last_control(r)->accepted) ? 3 : 2, equal = 0, named = 0;
     LOCAL_TEXT(names);
-    if (n == 0 && ceduo_result_last_index(r, 0)->contact == CEDUO_UNKNOWN)
+    if (n == 0 && ceduo_result_last_index(r, 0)->contact == CEDUO_LIGHT_UNKNOWN)
         return;
     for (size_t k = 0; k < tests; k++)
         equal += passes[k] == n;
@@ -503,7 +510,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
         const enum ceduo_light lights[3] = {s->contact, s->free_run, s->energy};
         for (size_t k = 0; k < 3; k++)
-            passes[k] += lights[k] == CEDUO_PASS;
+            passes[k] += lights[k] == CEDUO_LIGHT_PASS;
     }
     for (int all = 1; all >= 0; all--)
         add_equal_tests(page, r, passes, all ? n : 0);

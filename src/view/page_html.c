@@ -191,7 +191,10 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
             const struct ceduo_page_column *column = &table->columns[i];
             bool word = row > 0 && i > 0 && column->width > 0 && !(column->flags & (COL_WRAP | COL_GROW));
             ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class",
-                            column->width < 0 ? "n" : word ? "w" : NULL, NULL);
+                            column->width < 0 ? "n"
+                            : word            ? "w"
+                                              : NULL,
+                            NULL);
         }
         ceduo_html_close(html);
         if (row == 0)

@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/status.h"
 #include "io/node.h"
 #include "page_parts.h"
 #include "plot.h"
+#include "scene/derived.h"
 #include "svg.h"
 
 /* ---- pictures ---- */
@@ -113,11 +113,11 @@ static void add_uncertainty(struct ceduo_page *page, const struct ceduo_report *
     if (!several && o.over_years && o.uncertain && r->scene->blocks_count == 0)
         ceduo_text_append_joined(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
                                  o.failing_hi, report->verdict->choices[option].last_summary->years);
-    if (!several && o.answer == CEDUO_DEPENDS) /* with several options it is in the first sentence */
+    if (!several && o.answer == CEDUO_JUDGEMENT_DEPENDS) /* with several options it is in the first sentence */
         ceduo_text_append_joined(text, " ", "%s",
                                  _("Some of these cases keep within the limit and some do not: the answer depends on "
                                    "uncertain inputs."));
-    else if (o.answer == CEDUO_YES || o.answer == CEDUO_NO)
+    else if (o.answer == CEDUO_JUDGEMENT_YES || o.answer == CEDUO_JUDGEMENT_NO)
         ceduo_text_append_joined(text, " ", "%s", _("The answer is the same in all of these cases."));
 }
 
@@ -132,7 +132,7 @@ static void add_headline(struct ceduo_page *page, const struct ceduo_report *rep
     if (r->scene->options_count < 2 || ceduo_page_is_unassessable(r) || !r->wooded || !report->verdict)
         return;
     const struct ceduo_subject s = ceduo_subject_find(report, best, r->last_control);
-    if (s.outcome.answer == CEDUO_UNANSWERED)
+    if (s.outcome.answer == CEDUO_JUDGEMENT_UNANSWERED)
         return;
     ceduo_words_answer(&answer, &s, HEADLINE);
     ceduo_page_para(page, CEDUO_PAGE_ANSWER, _("%s, with the best option, '%s'"), ceduo_text_string(&answer),
@@ -142,10 +142,10 @@ static void add_headline(struct ceduo_page *page, const struct ceduo_report *rep
 /* Give the box of the answer its role. */
 static void colour_answer(const struct ceduo_page *page, const struct ceduo_report *report)
 {
-    static const enum ceduo_role roles[] = {[CEDUO_YES] = CEDUO_ROLE_GOOD,
-                                            [CEDUO_NO] = CEDUO_ROLE_BAD,
-                                            [CEDUO_NOT_DECIDED] = CEDUO_ROLE_WARN,
-                                            [CEDUO_DEPENDS] = CEDUO_ROLE_WARN};
+    static const enum ceduo_role roles[] = {[CEDUO_JUDGEMENT_YES] = CEDUO_ROLE_GOOD,
+                                            [CEDUO_JUDGEMENT_NO] = CEDUO_ROLE_BAD,
+                                            [CEDUO_JUDGEMENT_NOT_DECIDED] = CEDUO_ROLE_WARN,
+                                            [CEDUO_JUDGEMENT_DEPENDS] = CEDUO_ROLE_WARN};
     const struct ceduo_result *r = report->result;
     if (r->scene->controls_count == 0)
         return;

@@ -6,6 +6,7 @@
 
 #include "base/language.h"
 #include "base/oom.h"
+#include "core/runs/run.h"
 #include "plot.h"
 
 #define PANEL_WIDTH  26 /* min columns of a small picture */
