@@ -378,6 +378,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     add_option_percentiles(page, report);
     if (several && controls) {
         struct ceduo_picture picture = make_picture(report, best);
+        picture.option = SIZE_MAX; /* no row is reversed, as under a cursor */
         ceduo_page_comparison(page, report, is_crowded(report) ? CEDUO_COMPARE_WORDS : CEDUO_COMPARE_REST);
         if (!ceduo_report_has_hazard(report) &&
             scene->options_count <= CROWDED_OPTIONS) /* the table of frequencies replaces it */
