@@ -76,12 +76,12 @@ void ceduo_page_energies(struct ceduo_page *page, const struct ceduo_report *rep
                 add_row(&rows, ceduo_fence_class_energy[k] * J_TO_KJ, _("ETAG 027: one impact at its limit (MEL)")),
                 _("net fence of class %d"), k);
     qsort(rows.items, rows.n, sizeof rows.items[0], compare_rows);
-    ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s", _("Energies, and fences that withstand them (▸ the limit):"));
+    ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s", _("Energies, and fences that withstand them (\xe2\x96\xb8 the limit):"));
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t i = 0; i < rows.n; i++) {
         struct row *row = &rows.items[i];
         ceduo_page_cell_role(page, row->limit ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_BLANK, row->name.bytes);
-        ceduo_page_cell_format(page, "%s", SIG_TRIMMED(row->kJ, 3));
+        ceduo_page_cell_format(page, "%s", SIG_TRIMMED(row->kJ, row->limit ? 6 : 3));
         ceduo_page_cell_format(page, "%s", row->source);
     }
     for (size_t i = 0; i < ROWS_MAX; i++)

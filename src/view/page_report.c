@@ -81,6 +81,13 @@ static bool is_crowded(const struct ceduo_report *report)
     return ceduo_report_has_hazard(report) && report->result->scene->options_count > CROWDED_OPTIONS;
 }
 
+/* True if the page has no space for the uncertainty over the years. */
+static bool is_long(const struct ceduo_report *report)
+{
+    size_t options = report->result->scene->options_count;
+    return options > CROWDED_OPTIONS || (options > 1 && ceduo_report_has_hazard(report));
+}
+
 /* ---- sections ---- */
 
 /* Append the effect of uncertain inputs on the answer, for the best option. */
@@ -401,7 +408,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     }
     if (controls) {
         if (report->uncertainty && report->uncertainty->answer)
-            ceduo_uncertainty_blocks(page, report->uncertainty, scene->options_count <= CROWDED_OPTIONS);
+            ceduo_uncertainty_blocks(page, report->uncertainty, !is_long(report));
         add_hazard(page, report);
     }
     if (several)
@@ -410,7 +417,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     if (several)
         add_stand_warnings(page, report->result);
     add_limits(page, report->result);
-    if (scene->options_count > CROWDED_OPTIONS)
+    if (is_long(report))
         ceduo_page_note(
             page, _("Left out of this long page: the output of 'ceduo --batch', 'ceduo --plot' and 'ceduo --sensitivity'."));
     add_origin(page, report);
