@@ -387,8 +387,8 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
         struct ceduo_picture picture = make_picture(report, best);
         picture.option = SIZE_MAX; /* no row is reversed, as under a cursor */
         ceduo_page_comparison(page, report, is_crowded(report) ? CEDUO_COMPARE_WORDS : CEDUO_COMPARE_REST);
-        if (!ceduo_report_has_hazard(report) &&
-            scene->options_count <= CROWDED_OPTIONS) /* the table of frequencies replaces it */
+        /* the years of all options or the table of frequencies replace it */
+        if (!ceduo_report_years_ahead(report, 0) && !ceduo_report_has_hazard(report) && scene->options_count <= CROWDED_OPTIONS)
             add_picture(page, CEDUO_PLOT_COMPARE, WIDE_CELLS, 2 + (int)scene->options_count, &picture,
                         _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too "
                           "much energy, and their mean energy."));
