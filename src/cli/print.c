@@ -170,6 +170,7 @@ static void print_plots(const struct arguments *a, const struct ceduo_scene *sce
     struct ceduo_picture picture = {.scene = scene,
                                     .snapshot = q->snapshot,
                                     .verdict = q->snapshot ? &q->verdict : NULL,
+                                    .years_ahead = years,
                                     .uncertainty = q->uncertainty.file ? &q->uncertainty : NULL,
                                     .control = ceduo_scene_last_control(scene)};
     size_t start = out->length;
@@ -201,7 +202,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
         q.envelopes = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS;
         q.trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0;
         q.request.run.alternative_energy = false;
-        q.request.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
+        q.request.years |= ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_YEARS;
         status = ceduo_query_run(&q);
     }
     if (status == CEDUO_OK)

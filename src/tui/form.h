@@ -15,6 +15,7 @@ struct form_cell {
     const struct field *field;
     const char *text;    /* displayed value, see view/value_text.h */
     const char *written; /* scalar as in the file; "": none, or not a scalar */
+    int columns;         /* columns that show it whole */
     bool given;          /* written in the scene, not a default */
     bool assumed;
 };
@@ -27,6 +28,7 @@ struct form_row {
     size_t n;
     struct form_cell cells[FORM_COLUMNS]; /* a table head has fields only */
     const char *list;                     /* list of the row's item; "": none */
+    const int *columns;                   /* columns wanted by each column of the table; NULL: all equal */
     const char *group;                    /* the only group of that item in this row; NULL: the whole item */
     size_t index;
 };
