@@ -170,13 +170,14 @@ static struct form_row *add_item(struct form *form, const char *list, size_t i)
     return row;
 }
 
-/* Give the rows of a table, from its head on, the columns of its widest cells and short heads. */
+/* Give the rows of a table, from its head on, the columns of its widest cells and short heads, then of its long heads. */
 static void set_columns(struct form *form, size_t head)
 {
-    int *columns = ceduo_check_memory(ceduo_arena_alloc(&form->arena, FORM_COLUMNS * sizeof *columns));
+    int *columns = ceduo_check_memory(ceduo_arena_alloc(&form->arena, 2 * FORM_COLUMNS * sizeof *columns));
     for (size_t k = 0; k < form->rows[head].n; k++) {
         const struct field_shown *shown = &form->rows[head].cells[k].field->shown;
-        columns[k] = (int)ceduo_utf8_width(shown->brief ? ceduo_translate_in(shown->brief) : _(shown->label));
+        columns[FORM_COLUMNS + k] = (int)ceduo_utf8_width(_(shown->label));
+        columns[k] = shown->brief ? (int)ceduo_utf8_width(ceduo_translate_in(shown->brief)) : columns[FORM_COLUMNS + k];
         for (size_t i = head + 1; i < form->n; i++)
             if (form->rows[i].cells[k].columns > columns[k])
                 columns[k] = form->rows[i].cells[k].columns;
@@ -318,8 +319,8 @@ static int label_columns(const struct form *form, int width)
     return columns < max ? columns : max;
 }
 
-/* Share `space` columns among the cells of a row: each gets what it wants and a share of the rest, or the widest get less.
- * Each cell has a blank after it. */
+/* Share `space` columns among the cells of a row: each gets what it wants, then its long head and a share of the rest, or the
+ * widest get less. Each cell has a blank after it. */
 static void share_columns(const struct form_row *row, int space, int *each)
 {
     int n = (int)row->n, rest = space;
@@ -332,6 +333,12 @@ static void share_columns(const struct form_row *row, int space, int *each)
         for (int k = 1; k < n; k++)
             widest = each[k] > each[widest] ? k : widest;
         each[widest]--;
+    }
+    for (int k = 0; k < n && row->columns; k++) {
+        int more = row->columns[FORM_COLUMNS + k] + 1 - each[k];
+        more = more > 0 && more <= rest ? more : 0;
+        each[k] += more;
+        rest -= more;
     }
     for (int k = 0; k < n; k++) {
         int more = rest / (n - k);

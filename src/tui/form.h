@@ -28,7 +28,7 @@ struct form_row {
     size_t n;
     struct form_cell cells[FORM_COLUMNS]; /* a table head has fields only */
     const char *list;                     /* list of the row's item; "": none */
-    const int *columns;                   /* columns wanted by each column of the table; NULL: all equal */
+    const int *columns;                   /* columns of a table's cells, then of its heads; NULL: all equal */
     const char *group;                    /* the only group of that item in this row; NULL: the whole item */
     size_t index;
 };

@@ -316,9 +316,10 @@ struct layout {
 
 #define AXES             4  /* columns of the left axis, and lines of names, of the bottom axis and of belts */
 #define NAMES            14 /* columns for the names of curves, on the right of strips */
+#define SHORT_NAMES      6  /* the same by the index */
 #define FORM_COLUMNS_MIN 40 /* columns of the form beside the pictures */
 #define BESIDE_LINES     24 /* min. lines for the form beside the pictures */
-#define BAND_LINES       7 /* min. lines of a strip with a band */
+#define BAND_LINES       7  /* min. lines of a strip with a band */
 #define STRIP_SHARE      5  /* share of the lines for each strip beside the form */
 
 /* Return the dots of a metre in a picture of the slope at true scale. */
@@ -347,7 +348,7 @@ static struct layout stack_layout(struct ceduo_area area, int pane, int form_lin
     form_lines = pane != PANE_FORM ? 0 : form_lines > third ? form_lines : third;
     int rows = area.height - form_lines + (pane == PANE_FORM);
     struct layout l = {.columns = area.width};
-    l.strips = pane == PANE_PLACE ? 0 : rows >= 24 ? 2 : rows >= 13 ? 1 : 0; /* along the slope: all lines at true scale */
+    l.strips = pane == PANE_PLACE ? 0 : rows >= 24 ? 2 : rows >= 12 ? 1 : 0; /* along the slope: all lines at true scale */
     l.strip = rows >= 24 ? rows / 4 : 5;
     l.slope = rows - l.strip * l.strips - (pane == PANE_FORM);
     l.form = cut_bottom(&area, form_lines);
@@ -410,7 +411,10 @@ static void draw_slope(struct app *app, struct ceduo_area area)
         hint_cursor(app);
     else if (picture_only)
         ceduo_app_show_hint(app, _("left, right: another rock; down, up: along its trajectory; Tab: along the slope"));
-    ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, cut_top(&area, layout.slope), &picture);
+    struct ceduo_area slope = cut_top(&area, layout.slope);
+    if (layout.form.top == whole.top && scene->simulation.contact_model == CEDUO_INDEX)
+        slope.width -= SHORT_NAMES;
+    ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, slope, &picture);
     picture.no_x_axis = true;
     picture.bands = layout.strip >= BAND_LINES;
     if (layout.strips > 1)

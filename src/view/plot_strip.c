@@ -234,6 +234,8 @@ static void draw_caption(const struct strip *s, const struct content *content)
         column += ceduo_canvas_draw_text(canvas, column, row, end - column, parts[i].role, "  ");
         column += ceduo_canvas_draw_text(canvas, column, row, end - column, parts[i].role, _(parts[i].text));
     }
+    if (s->d->picture->bands && !s->d->wooded && column < end)
+        column += ceduo_plot_print(canvas, column, row, end - column, CEDUO_ROLE_BARE, "  %s", _("without forest"));
     if (s->has_band && column < end)
         column += ceduo_canvas_draw_text(canvas, column, row, end - column, CEDUO_ROLE_DIM,
                                          s->energy ? _("  \xe2\x96\x92 mean to p95") : _("  \xe2\x96\x92 p50 to p95"));
