@@ -42,7 +42,7 @@ $(LATER): deps
 	@+$(MAKE) --no-print-directory $@
 else
 
-VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/status.h)
+VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/scene.h)
 VARIANT ?= release
 PREFIX ?= /usr/local
 DESTDIR ?=
@@ -94,7 +94,7 @@ HEADERS := $(wildcard include/ceduo/*.h)
 REST := $(filter-out src/cli/main.c,$(call rooms,model tui cli))
 object = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY := $(BUILD)/libceduo.a
-SONAME := libceduo.so.0
+SONAME := libceduo.so.1
 SHARED := $(BUILD)/libceduo.so.$(VERSION)
 PARTS := $(BUILD)/libparts.a
 PROGRAM := $(BUILD)/ceduo

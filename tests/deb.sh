@@ -18,15 +18,15 @@ fail() {
 command -v lintian >/dev/null || skip "lintian is not installed"
 ! dpkg-query -W -f '${Status}' ceduo 2>/dev/null | grep -q installed || skip "a package ceduo is installed here"
 
-set -- build/deb/ceduo_*.deb build/deb/libceduo0_*.deb build/deb/libceduo-dev_*.deb
+set -- build/deb/ceduo_*.deb build/deb/libceduo1_*.deb build/deb/libceduo-dev_*.deb
 [ -f "$3" ] || fail "no packages in build/deb; run make deb"
 lintian --allow-root --fail-on error,warning build/deb/*.changes "$@"
 
 work=$(mktemp -d)
-trap 'dpkg --purge ceduo libceduo-dev libceduo0 >/dev/null 2>&1 || :; rm -rf "$work"' EXIT
+trap 'dpkg --purge ceduo libceduo-dev libceduo1 >/dev/null 2>&1 || :; rm -rf "$work"' EXIT
 DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "./$1" "./$2" "./$3" >"$work/apt.log" 2>&1 ||
     { cat "$work/apt.log"; fail "apt-get install"; }
-dpkg -L ceduo libceduo-dev libceduo0 | while read -r path; do [ -d "$path" ] || echo "$path"; done >"$work/files"
+dpkg -L ceduo libceduo-dev libceduo1 | while read -r path; do [ -d "$path" ] || echo "$path"; done >"$work/files"
 
 # used without the sources
 cd "$work"
@@ -47,10 +47,10 @@ bash -c '. /usr/share/bash-completion/completions/ceduo && complete -p ceduo' >/
 [ -f /usr/share/zsh/vendor-completions/_ceduo ] || fail "completion of zsh"
 printf '#include <ceduo/ceduo.h>\nint main(void) { struct ceduo_scene_file r; return ceduo_scene_read("paper-site", NULL, &r); }\n' >use.c
 ${CC:-gcc} -std=c17 use.c $(pkg-config --cflags --libs ceduo) -o use && ./use || fail "the shared library"
-readelf -d use | grep -q 'NEEDED.*\[libceduo.so.0\]' || fail "the name of the shared library"
+readelf -d use | grep -q 'NEEDED.*\[libceduo.so.1\]' || fail "the name of the shared library"
 ${CC:-gcc} -std=c17 -static use.c $(pkg-config --static --cflags --libs ceduo) -o use && ./use || fail "the static library"
 
-dpkg --purge ceduo libceduo-dev libceduo0 >/dev/null
+dpkg --purge ceduo libceduo-dev libceduo1 >/dev/null
 while read -r path; do [ ! -e "$path" ] || fail "left behind: $path"; done <files
 [ ! -e /usr/share/ceduo ] || fail "left behind: /usr/share/ceduo"
 echo "installed, used and purged: $(wc -l <files) files"

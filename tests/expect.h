@@ -101,7 +101,7 @@ static inline bool next_word(const char **words, char word[64])
 #define EXPECT_FIELD_SAME(both, field)             WITH_UNWRAPPED(EXPECT_FIELD_SAME_IN, UNWRAP both, field)
 #define EXPECT_NOT_KNOWN(unused, value)            assert_true(isnan(value));
 
-/* EXPECT_IS(end, (x, 500), (status, CEDUO_AT_REST)): compare members of one object with ==. */
+/* EXPECT_IS(end, (x, 500), (status, CEDUO_END_AT_REST)): compare members of one object with ==. */
 #define EXPECT_IS(of, ...)                                                                                                     \
     do {                                                                                                                       \
         EACH(EXPECT_FIELD, of, __VA_ARGS__)                                                                                    \

@@ -2,12 +2,58 @@
 #ifndef CEDUO_CALIBRATE_H
 #define CEDUO_CALIBRATE_H
 
-#include "flag.h"
-#include "observe.h"
 #include "uncertainty.h"
 
+/* ---- observations ---- */
+
+/* Observations of real rocks on a slope, and their comparison with simulated rocks. calibrate.h fits values to them. */
+
+/* One observation. Positions are relative to the first vertex of the slope, in SI. */
+struct ceduo_observation {
+    enum ceduo_observed_kind kind;
+    enum ceduo_observed_use use;
+    const char *name_given;              /* as in the scene, or made from its kind */
+    const char *name;                    /* in the language of pages */
+    size_t option;                       /* whose forest the rocks passed */
+    const struct ceduo_rock_def *rock;   /* NULL: the scene's */
+    const struct ceduo_release *release; /* NULL: the scene's */
+    double x;                            /* m; for passed, speed, height, energy */
+    double from, to;                     /* m, ends of a stretch; stops before `from` were not surveyed; NaN: all were */
+    size_t n;                            /* number of values, or of rocks that `mean` covers */
+    const double *values;                /* NULL: only mean and sd are given */
+    double mean, sd;
+    uint64_t count;          /* rocks passed */
+    uint64_t released_count; /* rocks released; 0: not given */
+    double share_seen;       /* share of the scars that a survey finds; NaN: not given */
+};
+
+/* An observation of stops, to be fitted; all numbers are NaN or 0. */
+struct ceduo_observation ceduo_observation_default(void);
+
+/* A list of n values is binned at its own quantiles into n/5 classes, at least 2 and at most 10. If the number released is
+ * given, one more class holds the rocks without a value. */
+#define CEDUO_CLASSES_MAX     11
+#define CEDUO_CLASS_ROCKS_MIN 10 /* simulated rocks per class; fewer overstate the deviance */
+
+/* Simulated rocks compared with one observation. */
+#define CEDUO_SAMPLE_VALUES 40
+struct ceduo_observation_fit {
+    uint64_t rocks;                                               /* simulated rocks */
+    size_t classes;                                               /* 0: means are compared */
+    double observed[CEDUO_CLASSES_MAX], count[CEDUO_CLASSES_MAX]; /* in each class: observed, simulated */
+    double mean, sd;                                              /* mean and standard deviation of the simulated values */
+    size_t sample_count; /* the first values; rocks are exchangeable, so these are a random sample */
+    double sample[CEDUO_SAMPLE_VALUES];
+    double observed_mean;
+    double variance;                 /* variance of the difference of the means */
+    double scars, scars_variance;    /* expected number for the rocks released; NaN: not a count of scars */
+    double log_likelihood, deviance; /* deviance: twice the log-likelihood ratio against the saturated model */
+};
+
+/* ---- calibration ---- */
+
 /* Fit of scene values to observations. The likelihood of a list is multinomial, of a count binomial, of a
- * mean normal (observe.h); their logarithms add. Every evaluation simulates the same rocks. Adaptive Metropolis
+ * mean normal; their logarithms add. Every evaluation simulates the same rocks. Adaptive Metropolis
  * chains (Haario, Saksman and Tamminen 2001) start at the best Sobol' points and draw from the posterior. The prior is uniform
  * within the bounds. */
 
@@ -30,7 +76,7 @@ struct ceduo_calibration_scene {
     const struct ceduo_observation *observations;
 };
 
-enum ceduo_calibration_stage { CEDUO_SEARCH, CEDUO_CHAINS };
+enum ceduo_calibration_stage { CEDUO_CALIBRATION_STAGE_SEARCH, CEDUO_CALIBRATION_STAGE_CHAINS };
 
 /* Progress: the best values up to now, in the units of files. */
 struct ceduo_calibration_state {
@@ -41,6 +87,7 @@ struct ceduo_calibration_state {
 };
 
 struct ceduo_calibration_def {
+    size_t size; /* sizeof this struct, set by the default; another value: CEDUO_BAD_ARGUMENT */
     size_t scenes_count;
     const struct ceduo_calibration_scene *scenes;
     size_t parameters_count; /* 1…CEDUO_CALIBRATION_MAX */
@@ -88,24 +135,9 @@ struct ceduo_calibration {
     double *draws; /* [draw][parameter], in the unit of files */
 };
 
-/* True if the fitted observations cover two or more rock shapes. In the law arm mu acts only through the shape, so one shape
- * cannot identify it. */
-bool ceduo_calibration_identifies_mu(const struct ceduo_calibration_scene *scenes, size_t n);
-
-/* Compare a scene with its observations without fitting it. Sets to[] for each observation, with the p-value and the
- * interval of new samples of the observed size. Simulates `rocks` rocks for each setting on this thread. Return CEDUO_OK,
- * CEDUO_NO_MEMORY, CEDUO_CANCELLED or the status of ceduo_scene_check(). */
-enum ceduo_status ceduo_compare_with_observations(const struct ceduo_calibration_scene *scene, uint64_t rocks,
-                                                  const ceduo_flag *cancel, struct ceduo_predicted *to);
-
-/* Select parameters to fix so that the observations identify the rest: first those that are not identified, then one of each
- * strongly correlated pair. If the chains have not converged and none is selected, select the one with the widest range. At least
- * one parameter stays. Return the number of selected parameters. */
-size_t ceduo_calibration_unidentified(const struct ceduo_calibration *answer, bool selected[CEDUO_CALIBRATION_MAX]);
-
 /* Fit. Return CEDUO_OK, CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or the status of ceduo_scene_check(). The caller
- * frees *answer after CEDUO_OK only. */
+ * releases *answer in any case. */
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *answer);
-void ceduo_calibration_free(struct ceduo_calibration *answer);
+void ceduo_calibration_release(struct ceduo_calibration *answer);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "status.h"
+#include "scene.h"
 
 /* A handle is a number that stands for a scene. Python, R and every language that can call C use these functions, whose types
  * never change. All strings are UTF-8, numbers in text have a dot, and units are those of files and results (kJ, kg, m).

@@ -2,13 +2,17 @@
 #ifndef CEDUO_SURVEY_H
 #define CEDUO_SURVEY_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "simulate.h"
 
-#include "naslund.h"
-#include "stand.h"
-#include "statistics.h"
-#include "status.h"
+/* ---- curve of heights ---- */
+
+/* Näslund's curve of height over diameter: h = 1.3 + d2/(a + b d)2, h in m, d in cm. */
+struct ceduo_naslund {
+    double a, b;
+    double rmse; /* m */
+};
+
+/* ---- sample plots ---- */
 
 /* Stand from the stems on sample plots. Each plot has its own figures per hectare. The stand has their mean, and the standard
  * error of the mean over the plots. */
@@ -47,18 +51,6 @@ struct ceduo_survey {
     const struct ceduo_survey_stem *stems;
 };
 
-/* Return the horizontal area (m2) of a plot of `area` m2 measured along a slope. */
-double ceduo_survey_horizontal(double area, double slope_rad);
-
-#define CEDUO_SURVEY_ALL (-2)
-
-/* Return the basal area of a species (-1: not given) or of CEDUO_SURVEY_ALL, summed over the plots, without stumps. For shares
- * only: squared diameters (m2) per m2. */
-double ceduo_survey_basal_area(const struct ceduo_survey *survey, int species);
-
-#define CEDUO_SURVEY_CLASS   0.05 /* m of dbh: the width of a class */
-#define CEDUO_SURVEY_SPACING 0.35 /* m between the shoots of a stool if not measured; assumed, as in the presets */
-
 /* Stems of one kind and one class of dbh. */
 struct ceduo_survey_class {
     enum ceduo_survey_kind kind;
@@ -73,25 +65,22 @@ struct ceduo_survey_class {
 };
 
 enum ceduo_survey_heights_from {
-    CEDUO_HEIGHTS_MEASURED, /* all */
-    CEDUO_HEIGHTS_CURVE,    /* missing heights by Näslund's curve */
-    CEDUO_HEIGHTS_MEAN,     /* missing heights are the mean of the given ones; assumed */
-    CEDUO_HEIGHTS_SHOOTS,   /* none given; all by the curve of the shoots; assumed */
-    CEDUO_HEIGHTS_USUAL     /* none given; all by a default curve; assumed */
+    CEDUO_SURVEY_HEIGHTS_MEASURED, /* all */
+    CEDUO_SURVEY_HEIGHTS_CURVE,    /* missing heights by Näslund's curve */
+    CEDUO_SURVEY_HEIGHTS_MEAN,     /* missing heights are the mean of the given ones; assumed */
+    CEDUO_SURVEY_HEIGHTS_SHOOTS,   /* none given; all by the curve of the shoots; assumed */
+    CEDUO_SURVEY_HEIGHTS_USUAL     /* none given; all by a default curve; assumed */
 };
 
 /* Heights of shoots, and of standards and trees together. */
 struct ceduo_survey_heights {
     size_t given, missing;
     enum ceduo_survey_heights_from from;
-    struct ceduo_naslund curve; /* for CEDUO_HEIGHTS_CURVE, _SHOOTS, _USUAL; the first two also set: */
+    struct ceduo_naslund curve; /* for CEDUO_SURVEY_HEIGHTS_CURVE, _SHOOTS, _USUAL; the first two also set: */
     size_t beyond;              /* stems without height that are thicker than all with height */
     double thickest;            /* m, largest dbh of the stems whose height is by the curve */
     double mean;                /* m, of the given heights; NaN: none given */
 };
-
-/* Relative uncertainty of heights if none was measured (assumed). */
-#define CEDUO_SURVEY_HEIGHT_UNCERTAINTY 0.3
 
 struct ceduo_survey_result {
     struct ceduo_estimate per_ha[CEDUO_SURVEY_KINDS_COUNT], stools;
@@ -105,8 +94,8 @@ struct ceduo_survey_result {
     double stump_energy;                 /* J, mean; NaN: not given */
 };
 
-/* Compute the stand. Return CEDUO_OK, CEDUO_NO_MEMORY or CEDUO_BAD_ARGUMENT. The caller frees *answer after CEDUO_OK only. */
+/* Compute the stand. Return CEDUO_OK, CEDUO_NO_MEMORY or CEDUO_BAD_ARGUMENT. The caller releases *answer in any case. */
 enum ceduo_status ceduo_survey_compute(const struct ceduo_survey *survey, struct ceduo_survey_result *answer);
-void ceduo_survey_free(struct ceduo_survey_result *answer);
+void ceduo_survey_release(struct ceduo_survey_result *answer);
 
 #endif

@@ -2,10 +2,84 @@
 #ifndef CEDUO_UNCERTAINTY_H
 #define CEDUO_UNCERTAINTY_H
 
-#include "flag.h"
-#include "scene.h"
-#include "surface.h"
 #include "years.h"
+
+/* ---- surrogate ---- */
+
+/* A figure at one point for each group of the rocks. Groups have the same rocks at every point. Equal values: no noise. The
+ * product of two groups has no bias by noise. */
+#define CEDUO_SURFACE_GROUPS 16
+struct ceduo_replicates {
+    double value[CEDUO_SURFACE_GROUPS];
+};
+
+struct ceduo_share {
+    double value, se; /* se: bootstrap over points and jackknife over rocks */
+};
+
+struct ceduo_surface_fit {
+    double mean, variance; /* over the plausible cases, without sampling noise */
+    double noise;          /* sampling variance of a value at a point */
+    double q2;             /* share of the total variance that the surface predicts, by leave-one-out cross-validation */
+    double explained;      /* share of the variance without noise that the surface explains */
+    bool enough_points;    /* true if points suffice for the terms; otherwise shares are NaN */
+    bool linear;           /* terms of degree 1 and their products only */
+    struct ceduo_share unexplained;    /* unexplained share */
+    double p5, p50, p95;               /* percentiles of the values */
+    double p5_se, p95_se;              /* over other points and other rocks */
+    struct ceduo_share share_below;    /* share of the values at or below the limit */
+    double *values;                    /* for each point the surface plus its residual, shrunk by noise */
+    struct ceduo_share *first, *total; /* for each input: alone, and with all interactions */
+    double *width_if_known;            /* for each input the expected p95 - p5 if it were known; at most p95 - p5 */
+};
+
+/* ---- inverse search ---- */
+
+/* Inverse search: find the value for which a goal stays at or below its target. The search depends on nothing but the goals
+ * that were evaluated, and evaluates no value twice. */
+
+#define CEDUO_FIND_SCAN      8    /* interior values, evaluated if both ends pass or both fail */
+#define CEDUO_FIND_TOLERANCE 1e-9 /* share of hi - lo */
+
+struct ceduo_find_def {
+    size_t size;   /* sizeof this struct, set by the default; another value: CEDUO_BAD_ARGUMENT */
+    double lo, hi; /* finite, lo <= hi */
+    bool whole;    /* only whole values; |lo|, |hi| <= 2^53 */
+    double target; /* a value passes if its goal is <= target; may be infinite; a goal of NaN never passes */
+    /* Set *goal for a value. Any status but CEDUO_OK ends the search. Equal values must have equal goals. */
+    enum ceduo_status (*goal)(void *context, double value, double *goal);
+    void *context;
+    double tolerance;         /* share of hi - lo; not used for whole values; 0: CEDUO_FIND_TOLERANCE */
+    const ceduo_flag *cancel; /* may be NULL; if set, the search returns after the current evaluation */
+};
+
+/* From 0 to 1, target 0. The caller sets `goal`. */
+struct ceduo_find_def ceduo_find_def_default(void);
+
+enum ceduo_side { CEDUO_SIDE_SMALLEST, CEDUO_SIDE_LARGEST };
+
+struct ceduo_found {
+    bool found;
+    bool whole_range;                /* every evaluated value passes */
+    double value, goal_at_value;     /* evaluated, and passes; NaN if not found */
+    enum ceduo_side side;            /* `value` is the smallest or the largest that passes */
+    bool monotone;                   /* the evaluated goals only rise or only fall with the value */
+    double nearest, goal_at_nearest; /* smallest evaluated goal; NaN if all goals are NaN */
+    unsigned evaluations;
+};
+
+/* Find the value in [lo, hi] at which the goal crosses its target: both ends pass   lo (smallest) if all interior values
+ * pass, too. Otherwise the smallest value above which all evaluated values pass; not monotone only hi passes   the smallest
+ * value that passes only lo passes   the largest value that passes neither passes   if an interior value passes, the
+ * crossing below the first such value; not monotone. Otherwise not found The value passes. The next whole number beyond the
+ * crossing, or a value within the tolerance, was evaluated and fails. A goal that is not monotone may have further
+ * crossings. Changes of the goal below 1e-12 of it count as rounding. Without a whole number in [lo, hi] nothing is
+ * evaluated. Bisection takes at most 55 evaluations for whole values up to 10^12 and for the default tolerance. Return
+ * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY, CEDUO_BAD_ARGUMENT or the status of the goal. Unless CEDUO_OK, *found covers
+ * the evaluated values only. */
+enum ceduo_status ceduo_find(const struct ceduo_find_def *def, struct ceduo_found *found);
+
+/* ---- uncertain inputs ---- */
 
 /* Uncertainty of inputs, and its effect on results. Sampling error shrinks with more rocks; this uncertainty shrinks only with
  * measurement. Each uncertain value is an input with a range. Many scenes are drawn from the ranges. All are computed with the
@@ -29,9 +103,6 @@ struct ceduo_input {
 
 #define CEDUO_GAMMA_MAX 2.0
 
-/* Return the quantile u (0…1) of an input that is a range, normal or gamma. */
-double ceduo_input_quantile(const struct ceduo_input *input, double u);
-
 /* Figures at the last control, with forest (without forest if the contact model is index). The judged share is EXCEED if an
  * accepted energy is given, otherwise REACH. */
 enum ceduo_uncertainty_kind {
@@ -47,16 +118,17 @@ enum ceduo_uncertainty_kind {
     CEDUO_UNCERTAINTY_KINDS
 };
 
-/* Points of a surface (ceduo/surface.h). Their number is doubled until the surface explains CEDUO_UNCERTAINTY_EXPLAINED of the
- * variance. */
+/* Points at which figures are computed, to fit a polynomial surface through them (Sudret 2008). Their number is doubled until
+ * the surface explains CEDUO_UNCERTAINTY_EXPLAINED of the variance. */
 #define CEDUO_UNCERTAINTY_POINTS     256
 #define CEDUO_UNCERTAINTY_POINTS_MAX 1024
 #define CEDUO_UNCERTAINTY_EXPLAINED  0.9
 #define CEDUO_UNCERTAINTY_ROCKS      400 /* per point, by default */
 #define CEDUO_UNCERTAINTY_MIN        20  /* points that a 90 % range requires */
 
-/* Two options are equal if their shares differ by at most this. With blocks the limit is a tenth of ceduo_exceed_limit(). Mean
- * energies per released rock are equal if they differ by at most this share of the energy without forest. */
+/* Two options are equal if their shares differ by at most this. With blocks the limit is a tenth of that of struct
+ * ceduo_arrivals. Mean energies per released rock are equal if they differ by at most this share of the energy without
+ * forest. */
 #define CEDUO_UNCERTAINTY_EQUAL 0.005
 
 /* Rocks of each year of a rotation at a point, different in each year. An option with more than YEARS_MAX years is thinned to
@@ -65,9 +137,8 @@ enum ceduo_uncertainty_kind {
 #define CEDUO_UNCERTAINTY_YEARS_MAX      60
 #define CEDUO_UNCERTAINTY_OWN_YEAR_ROCKS 1000
 
-struct ceduo_results; /* request.h */
-
 struct ceduo_uncertainty_def {
+    size_t size; /* sizeof this struct, set by the default; another value: CEDUO_BAD_ARGUMENT */
     const struct ceduo_scene *scene;
     size_t inputs_count; /* >= 1 */
     const struct ceduo_input *inputs;
@@ -138,19 +209,13 @@ struct ceduo_uncertainty_result {
 
 /* Compute the uncertainty of all figures. The result does not depend on the number of threads, bit for bit. Return CEDUO_OK,
  * CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT (a member of the def out of range, an input without words or draws, a
- * scene without control) or the status of ceduo_scene_check(). The caller frees *answer after CEDUO_OK only. */
+ * scene without control) or the status of ceduo_scene_check(). The caller releases *answer in any case. */
 enum ceduo_status ceduo_uncertainty_compute(const struct ceduo_uncertainty_def *def, struct ceduo_uncertainty_result *answer);
-void ceduo_uncertainty_free(struct ceduo_uncertainty_result *answer);
+void ceduo_uncertainty_release(struct ceduo_uncertainty_result *answer);
 
 /* Return a figure; NULL if there is no such option or figure. Figures over a rotation require answer->rotation. */
 const struct ceduo_uncertainty_figure *ceduo_uncertainty_find_figure(const struct ceduo_uncertainty_result *answer,
                                                                      size_t option, enum ceduo_uncertainty_kind kind,
                                                                      bool difference);
-
-/* Find the inputs that decide a light of the last control: contact, free run, energy (CEDUO_UNCERTAINTY_EXCEED) or its fence. Return the
- * number of dominant inputs, 1 or 2, the largest share first. Return 0 if the light does not change within the 90 % range, or
- * if there are too few points. */
-size_t ceduo_uncertainty_dominant_inputs(const struct ceduo_scene *scene, const struct ceduo_uncertainty_result *answer,
-                                         size_t option, enum ceduo_uncertainty_kind light, size_t inputs[2]);
 
 #endif

@@ -19,7 +19,7 @@ try:
 except ImportError:
     numpy = None
 
-_lib = ctypes.CDLL("libceduo.so.0")
+_lib = ctypes.CDLL("libceduo.so")
 _handle, _text, _numbers = ctypes.c_uint64, ctypes.c_char_p, ctypes.POINTER(ctypes.c_double)
 for _name, _result, *_arguments in [
         ("open", _handle, _text), ("close", ctypes.c_int, _handle), ("set", ctypes.c_int, _handle, _text, _text),

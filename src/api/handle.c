@@ -111,7 +111,8 @@ static struct open_scene **find_handle(ceduo_handle handle)
     return scene;
 }
 
-/* Begin a call: return the scene, which no other thread uses until end_call(); NULL on failure. `remove`: take it from the list. */
+/* Begin a call: return the scene, which no other thread uses until end_call(); NULL on failure. `remove`: take it from the
+ * list. */
 static struct open_scene *begin_call(ceduo_handle handle, bool remove)
 {
     clear_error(handle);

@@ -5,7 +5,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "ceduo/calibrate.h"
 #include "study/goal.h"
 #include "view/cells.h"
 #include "view/plot.h"

@@ -68,8 +68,8 @@ static enum exit_status worse(enum exit_status a, enum exit_status b)
     return a > b ? a : b;
 }
 
-/* Put a table of verdicts before the pages of several scenes, and sort the pages, the worst first. `starts`: begin of each page,
- * and the end of the last. A report gets head and end of HTML, too. */
+/* Put a table of verdicts before the pages of several scenes, and sort the pages, the worst first. `starts`: begin of each
+ * page, and the end of the last. A report gets head and end of HTML, too. */
 static void add_verdicts(struct text *text, const struct arguments *a, const size_t *starts)
 {
     struct text pages = *text;

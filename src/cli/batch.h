@@ -3,7 +3,6 @@
 #define CEDUO_BATCH_H
 
 #include "arguments.h"
-#include "ceduo/request.h"
 #include "study/snapshot.h"
 
 /* ---- commands: print to standard output or --output, and return the exit status ---- */
@@ -27,15 +26,15 @@ void ceduo_print_command(struct text *text, const struct arguments *arguments);
 
 /* ---- reading ---- */
 
-/* Read a scene with the changes of the command line and the options of --option; with --find, all options. Reports errors. Return
- * EXIT_OUTPUT if --output is one of its files. */
+/* Read a scene with the changes of the command line and the options of --option; with --find, all options. Reports errors.
+ * Return EXIT_OUTPUT if --output is one of its files. */
 enum exit_status ceduo_batch_read(const struct arguments *arguments, const char *path, struct scene_file *file);
 
 /* Find an option by its name. Otherwise report it and return EXIT_USAGE. */
 enum exit_status ceduo_find_option(const struct scene_file *file, const char *name, size_t *index);
 
-/* Warn if the scene has no answer because too few rocks arrive even without forest. Simulates at most CHECK_ROCKS rocks. `stands`:
- * warn of unusual stands, too. */
+/* Warn if the scene has no answer because too few rocks arrive even without forest. Simulates at most CHECK_ROCKS rocks.
+ * `stands`: warn of unusual stands, too. */
 void ceduo_batch_warn(const struct arguments *arguments, const struct scene_file *file, bool stands);
 
 /* Report a failed simulation, unless it was interrupted. Return EXIT_RUN. */
@@ -79,11 +78,13 @@ enum ceduo_status ceduo_query_run(struct query *query);
 /* Compute the uncertainty of the scene, with the points and rocks of the command line. */
 enum ceduo_status ceduo_query_uncertainty(struct query *query, const struct arguments *arguments, struct scene_file *file);
 
-/* Compute the uncertainty in addition to the answer, with at most its rocks, and over the rotation of each option if there is one.
- * Computes nothing if rocks among stems are not simulated, if there is no answer, or if the work is far above that of most scenes. */
+/* Compute the uncertainty in addition to the answer, with at most its rocks, and over the rotation of each option if there is
+ * one. Computes nothing if rocks among stems are not simulated, if there is no answer, or if the work is far above that of most
+ * scenes. */
 enum ceduo_status ceduo_query_add_uncertainty(struct query *query, const struct arguments *arguments, struct scene_file *file);
 
-/* Free all, and report a failure. Return EXIT_RUN on failure, or if more than 1 of 1000 rocks is unfinished; otherwise EXIT_DONE. */
+/* Free all, and report a failure. Return EXIT_RUN on failure, or if more than 1 of 1000 rocks is unfinished; otherwise
+ * EXIT_DONE. */
 enum exit_status ceduo_query_end(struct query *query, const struct scene_file *file, enum ceduo_status status);
 
 #endif

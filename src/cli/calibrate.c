@@ -11,6 +11,7 @@
 #include "io/file.h"
 #include "messages.h"
 #include "model/fit.h"
+#include "study/predict.h"
 #include "view/figures.h"
 
 #define NO_VALUE _("'%s' is not a number of these scenes and cannot be fitted; see ceduo --list-parameters")
@@ -123,8 +124,8 @@ static bool print_scene(const struct fit_job *j, const struct ceduo_calibration_
     return good;
 }
 
-/* Write the first scene with the best values, and the draws next to it. Rename both files only when both are written: a full disk
- * must not leave draws of this fit with the scene of another. */
+/* Write the first scene with the best values, and the draws next to it. Rename both files only when both are written: a full
+ * disk must not leave draws of this fit with the scene of another. */
 static enum exit_status write_scene(const struct fit_job *j, const struct ceduo_calibration_report *r)
 {
     const char *output = j->arguments->output;
@@ -171,7 +172,7 @@ static void show(void *context, const struct ceduo_calibration_state *state)
     double seconds;
     if (!ceduo_progress_due(context, &seconds))
         return;
-    if (state->stage == CEDUO_CHAINS && isfinite(state->rhat))
+    if (state->stage == CEDUO_CALIBRATION_STAGE_CHAINS && isfinite(state->rhat))
         ceduo_show_progress(_("%llu scenes; R-hat %.3f (1.05), effective size %.0f (200); %.0f s"),
                             (unsigned long long)state->evaluations, state->rhat, state->effective_size, seconds);
     else
@@ -185,7 +186,8 @@ static enum exit_status compute(struct fit_job *j)
     struct ceduo_calibration answer;
     LOCAL_TEXT(out);
     struct progress progress = ceduo_progress_begin(&print);
-    struct ceduo_calibration_def def = {.scenes_count = j->scenes_count,
+    struct ceduo_calibration_def def = {.size = sizeof def,
+                                        .scenes_count = j->scenes_count,
                                         .scenes = j->scenes,
                                         .parameters_count = j->parameters_count,
                                         .rocks = print.rocks > 0 ? print.rocks : CEDUO_CALIBRATION_ROCKS,
@@ -214,7 +216,7 @@ static enum exit_status compute(struct fit_job *j)
     enum exit_status written = ended ? EXIT_RUN : ceduo_output_write(&print, &out);
     if (written == EXIT_DONE && scene)
         written = write_scene(j, &report);
-    ceduo_calibration_free(&answer);
+    ceduo_calibration_release(&answer);
     return written;
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines of CSV: the copied cells of --each, the state of the row, then the cells of the result. --columns chooses among them. */
+/* Lines of CSV: the copied cells of --each, the state of the row, then the cells of the result. --columns chooses among
+ * them. */
 #include <stdlib.h>
 #include <string.h>
 

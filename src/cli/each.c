@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rows of --each. A column whose head is a path of --set changes the scene; other columns are copied to the output. The table is read
- * twice: the first pass finds the rows and reports their errors, the second reads their cells. */
+/* Rows of --each. A column whose head is a path of --set changes the scene; other columns are copied to the output. The table
+ * is read twice: the first pass finds the rows and reports their errors, the second reads their cells. */
 #include "each.h"
 
 #include <stdlib.h>

@@ -18,8 +18,8 @@ struct each_head {
 
 #define NO_COLUMN SIZE_MAX
 
-/* Decide for each head of the table if its column is set or copied. Report duplicate heads and heads that look like a wrong path, and
- * return false. */
+/* Decide for each head of the table if its column is set or copied. Report duplicate heads and heads that look like a wrong
+ * path, and return false. */
 bool ceduo_each_heads(const struct csv *table, struct arena *arena, struct each_head *heads);
 
 struct each_row {
@@ -111,16 +111,16 @@ struct columns {
     struct text failed;     /* line of the result of a row that failed */
 };
 
-/* Choose the columns. `figures`: columns of the result; NULL: the output is no table. A copied column has the prefix row. if the
- * result has such a name, too. Report an unknown name in --columns and return EXIT_USAGE. */
+/* Choose the columns. `figures`: columns of the result; NULL: the output is no table. A copied column has the prefix row. if
+ * the result has such a name, too. Report an unknown name in --columns and return EXIT_USAGE. */
 enum exit_status ceduo_columns_open(struct columns *columns, struct each *each, const struct ceduo_figure *figures);
 void ceduo_columns_close(struct columns *columns);
 
 /* Append the head of the output. */
 void ceduo_columns_head(const struct columns *columns, struct text *out);
 
-/* Set columns->cells to those of each line of the result, with the cells of the current row, and call `visit`. A row that failed
- * has one line. */
+/* Set columns->cells to those of each line of the result, with the cells of the current row, and call `visit`. A row that
+ * failed has one line. */
 void ceduo_columns_visit(struct columns *columns, const struct text *lines, const struct ceduo_row_state *state,
                          void (*visit)(const struct columns *columns, void *context), void *context);
 

@@ -9,7 +9,6 @@
 #include "base/language.h"
 #include "base/oom.h"
 #include "batch.h"
-#include "ceduo/status.h"
 #include "messages.h"
 #include "tui/program.h"
 

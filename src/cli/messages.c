@@ -146,8 +146,8 @@ void ceduo_interrupt_release(void)
 
 /* ---- the language ---- */
 
-/* gettext() translates text. Its language is LANGUAGE, or that of the locale; it does nothing in the locale C. If the machine lacks
- * the locale of the language, any other locale works with LANGUAGE. */
+/* gettext() translates text. Its language is LANGUAGE, or that of the locale; it does nothing in the locale C. If the machine
+ * lacks the locale of the language, any other locale works with LANGUAGE. */
 #ifndef CEDUO_LOCALEDIR
 #define CEDUO_LOCALEDIR "/usr/local/share/locale"
 #endif

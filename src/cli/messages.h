@@ -56,8 +56,8 @@ bool ceduo_output_is(const struct arguments *arguments, const char *path);
 /* Write to --output. Report an error and return EXIT_OUTPUT. */
 enum exit_status ceduo_output_write(const struct arguments *arguments, const struct text *text);
 
-/* The output of many scenes. With --output it is kept until the last scene: in memory if it is small, otherwise in a temporary file.
- * While that exists, signals are caught, so that it is removed. */
+/* The output of many scenes. With --output it is kept until the last scene: in memory if it is small, otherwise in a temporary
+ * file. While that exists, signals are caught, so that it is removed. */
 struct output {
     struct pending_file file;
     int fd;

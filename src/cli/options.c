@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options of the command line in one table, which the parser, the help and the checks read. A new option is a row, and a setter
- * if no other fits. The lists of changes and options belong to the arguments; their strings are those of main(). */
+/* The options of the command line in one table, which the parser, the help and the checks read. A new option is a row, and a
+ * setter if no other fits. The lists of changes and options belong to the arguments; their strings are those of main(). */
 #include <getopt.h>
 #include <math.h>
 #include <sched.h>
@@ -14,8 +14,6 @@
 #include "base/language.h"
 #include "base/oom.h"
 #include "base/utf8.h"
-#include "ceduo/uncertainty.h"
-#include "ceduo/years.h"
 #include "messages.h"
 #include "scene/choices.h"
 
@@ -501,8 +499,8 @@ static enum exit_status check_arguments(const struct arguments *a)
 
 #define FIRST_LONG 256 /* first number of options without a letter, for getopt */
 
-/* Return the next word as the value of an option with an optional value: accept "--years 0:25" like "--years=0:25". It must have a
- * colon or begin like a number, and must not be a file. NULL: none. */
+/* Return the next word as the value of an option with an optional value: accept "--years 0:25" like "--years=0:25". It must
+ * have a colon or begin like a number, and must not be a file. NULL: none. */
 static char *find_detached_value(int argc, char **argv)
 {
     char *word = optind < argc ? argv[optind] : NULL;

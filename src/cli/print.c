@@ -7,6 +7,7 @@
 #include "batch.h"
 #include "messages.h"
 #include "model/search.h"
+#include "scene/derived.h"
 #include "study/verdict.h"
 #include "view/figures.h"
 #include "view/page.h"
@@ -222,8 +223,8 @@ static void append_word(struct text *text, const char *before, const char *word)
         ceduo_text_append_quoted(text, word);
 }
 
-/* Append the command line with all options that affect the page; not its file name or the threads. A chapter of a region has the
- * changes of its row. */
+/* Append the command line with all options that affect the page; not its file name or the threads. A chapter of a region has
+ * the changes of its row. */
 void ceduo_print_command(struct text *text, const struct arguments *a)
 {
     ceduo_text_append(text, "ceduo --report report.html");

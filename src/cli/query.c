@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/language.h"
 #include "batch.h"
+#include "core/runs/result.h"
 #include "messages.h"
 #include "model/jobs.h"
 #include "study/effort.h"
@@ -161,7 +162,7 @@ void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file, 
 {
     struct warnings warnings = {.file = file};
     struct ceduo_scene bare = file->scene;
-    bare.simulation.contact_model = CEDUO_INDEX; /* simulates the bare slope only */
+    bare.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX; /* simulates the bare slope only */
     struct ceduo_request request = ceduo_request_default(&bare);
     struct ceduo_results results;
     request.rocks = bare.simulation.rocks < CHECK_ROCKS ? bare.simulation.rocks : CHECK_ROCKS;
@@ -224,7 +225,7 @@ enum exit_status ceduo_query_end(struct query *q, const struct scene_file *file,
     const struct ceduo_result *r = q->results.result;
     bool finished = !r || ceduo_result_unfinished(r) * 1000 <= ceduo_result_rocks(r);
     if (q->uncertainty.answer)
-        ceduo_uncertainty_free(&q->uncertainty_answer);
+        ceduo_uncertainty_release(&q->uncertainty_answer);
     ceduo_verdict_release(&q->verdict);
     ceduo_snapshot_free(q->snapshot);
     ceduo_results_release(&q->results);
@@ -233,7 +234,8 @@ enum exit_status ceduo_query_end(struct query *q, const struct scene_file *file,
 
 /* ---- uncertainty ---- */
 
-/* Compute the uncertainty with the points and rocks of `def`. `finer`: result of the unchanged scene with more rocks; may be NULL. */
+/* Compute the uncertainty with the points and rocks of `def`. `finer`: result of the unchanged scene with more rocks; may be
+ * NULL. */
 static enum ceduo_status ask_uncertainty(struct query *q, struct scene_file *file, const struct ceduo_uncertainty_def *def,
                                          const struct ceduo_result *finer)
 {
@@ -254,7 +256,8 @@ static bool init_uncertainty(struct query *q, const struct arguments *a, struct 
     bool good = ceduo_inputs_collect(file, &q->inputs);
     if (!years)
         ceduo_inputs_keep_today(&q->inputs);
-    *def = (struct ceduo_uncertainty_def){.scene = &file->scene,
+    *def = (struct ceduo_uncertainty_def){.size = sizeof(struct ceduo_uncertainty_def),
+                                          .scene = &file->scene,
                                           .inputs_count = q->inputs.n,
                                           .inputs = q->inputs.items,
                                           .points = (size_t)a->points,

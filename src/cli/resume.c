@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* --resume: the output grows scene by scene. A side file has a line for each scene: hash of its input, number of its lines in the
- * output, their hash, exit status. A scene is appended to the output, then to the side file. After a kill, lines that are missing in
- * the side file, or differ from it, are computed again and appended. At the end the lines are sorted by row if necessary. */
+/* --resume: the output grows scene by scene. A side file has a line for each scene: hash of its input, number of its lines in
+ * the output, their hash, exit status. A scene is appended to the output, then to the side file. After a kill, lines that are
+ * missing in the side file, or differ from it, are computed again and appended. At the end the lines are sorted by row if
+ * necessary. */
 #include "resume.h"
 
 #include <errno.h>
@@ -17,7 +18,6 @@
 #include "base/hash.h"
 #include "base/language.h"
 #include "base/oom.h"
-#include "ceduo/status.h"
 #include "io/file.h"
 #include "messages.h"
 
@@ -264,7 +264,8 @@ static uint64_t hash_range(struct reader *reader, size_t from, size_t length)
     return hash;
 }
 
-/* Find the lines of a part, which begin at `from`. Set *whole to true if they match the side file. Return the byte after them. */
+/* Find the lines of a part, which begin at `from`. Set *whole to true if they match the side file. Return the byte after
+ * them. */
 static size_t find_lines(struct reader *reader, size_t from, struct resume_part *part, bool *whole)
 {
     size_t end = from, n;

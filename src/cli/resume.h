@@ -31,8 +31,8 @@ struct resume {
     struct resume_part *order; /* in the order of the rows */
 };
 
-/* Open and lock the output, and find its complete lines. `each`: before its first scene; `head`: of the output. Report an error and
- * return its status if the output belongs to another run or program, or is unusable. */
+/* Open and lock the output, and find its complete lines. `each`: before its first scene; `head`: of the output. Report an error
+ * and return its status if the output belongs to another run or program, or is unusable. */
 enum exit_status ceduo_resume_open(struct resume *resume, struct each *each, const struct text *head);
 
 /* True if the output has the lines of the scene with this key. Sets *status to the exit status of the scene. */

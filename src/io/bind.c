@@ -3,6 +3,7 @@
  * The binder keeps the path of the current value for messages. It marks an invalid value by its path and continues.
  * Lists and texts are in the caller's arena. */
 #include "bind.h"
+#include "scene/rock.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +12,6 @@
 
 #include "base/language.h"
 #include "base/text.h"
-#include "ceduo/rock.h"
 #include "scene/fields.h"
 
 #define KEYS_MAX 32 /* keys in a message */

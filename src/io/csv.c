@@ -443,7 +443,8 @@ void ceduo_csv_scan(struct csv *csv)
     csv->problems = problems;
 }
 
-/* True if an empty cell beyond the head may result from a doubled cell or a removed head: one record, or each, has one cell more. */
+/* True if an empty cell beyond the head may result from a doubled cell or a removed head: one record, or each, has one cell
+ * more. */
 static bool is_uncertain(const struct csv *csv)
 {
     bool one = csv->cells_count == csv->width + 1 && csv->longer_by_one == csv->longer;

@@ -6,9 +6,9 @@
 #include "base/text.h"
 #include "problem.h"
 
-/* Tables as offices write them: RFC 4180 and its variants in spreadsheets, GIS and forms. Cells are separated by ; tab , | or, if
- * the caller permits it, blanks. UTF-8, UTF-16 and Windows-1252 are recognized. A table is read completely or refused, with line
- * numbers. */
+/* Tables as offices write them: RFC 4180 and its variants in spreadsheets, GIS and forms. Cells are separated by ; tab , | or,
+ * if the caller permits it, blanks. UTF-8, UTF-16 and Windows-1252 are recognized. A table is read completely or refused, with
+ * line numbers. */
 
 /* A cell of the present record. */
 struct csv_cell {
@@ -74,8 +74,8 @@ struct csv_head {
     double lo, hi;           /* range of its numbers, in the usual unit */
 };
 
-/* Return the column with a head; CEDUO_CSV_NOT_FOUND; CEDUO_CSV_DUPLICATE. Ignores case, blanks and punctuation. A unit may follow
- * the name, with or without brackets. Earlier names win. */
+/* Return the column with a head; CEDUO_CSV_NOT_FOUND; CEDUO_CSV_DUPLICATE. Ignores case, blanks and punctuation. A unit may
+ * follow the name, with or without brackets. Earlier names win. */
 size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, const char *units);
 
 /* Find the head of a table: the line among the first 20, and the separator, with the most of n known heads. Read a row of units
@@ -95,8 +95,8 @@ static inline void ceduo_csv_mark_numeric(struct csv *csv, size_t column)
         csv->heads[column].numeric = true;
 }
 
-/* Read the whole table once to find its width, its number of rows and the decimal sign of its numeric columns. Call it before the
- * first ceduo_csv_next_row(). */
+/* Read the whole table once to find its width, its number of rows and the decimal sign of its numeric columns. Call it before
+ * the first ceduo_csv_next_row(). */
 void ceduo_csv_scan(struct csv *csv);
 
 /* Read the next record that is not blank; false at the end. Report a broken record and mark it bad. */
@@ -172,8 +172,8 @@ struct points {
     const char *lines;      /* names of the lines if the file was refused because it has several; else NULL */
 };
 
-/* Read a profile: distance and elevation, x, y and elevation of a line on the map, WKT, or the output of GRASS or GMT.
- * `layer`: name of the line in a file with several; NULL: the only line. Report an error and return false if the file is refused. */
+/* Read a profile: distance and elevation, x, y and elevation of a line on the map, WKT, or the output of GRASS or GMT. `layer`:
+ * name of the line in a file with several; NULL: the only line. Report an error and return false if the file is refused. */
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *layer, struct points *points,
                           struct problems *problems);
 

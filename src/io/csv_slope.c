@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A profile from a table: distance and elevation, or a line on the map with elevations, as columns, WKT or the output of GRASS and
- * GMT. Reads the points, then chooses and checks one line, then converts walls and overhangs so that x rises. */
+/* A profile from a table: distance and elevation, or a line on the map with elevations, as columns, WKT or the output of GRASS
+ * and GMT. Reads the points, then chooses and checks one line, then converts walls and overhangs so that x rises. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes a tree as YAML: in brackets if that fits on a line, otherwise in blocks. In a changed document only the bytes of changed
- * values are replaced. If the result does not read back as the tree, the document is laid out again. */
+/* Writes a tree as YAML: in brackets if that fits on a line, otherwise in blocks. In a changed document only the bytes of
+ * changed values are replaced. If the result does not read back as the tree, the document is laid out again. */
 #include "node.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads, writes and finds files. A file is written beside its target and then renamed; devices are written in place. The bytes read
- * are in the caller's arena, which lists the file. */
+/* Reads, writes and finds files. A file is written beside its target and then renamed; devices are written in place. The bytes
+ * read are in the caller's arena, which lists the file. */
 #include "file.h"
 
 #include <dirent.h>
@@ -28,8 +28,8 @@ static bool is_standard(const char *path)
     return strcmp(path, "-") == 0;
 }
 
-/* Read a file into the arena without another copy. Standard input may be anything. Refuse devices: they may never end. Do not read
- * regular files of size 0: some in /proc never end. */
+/* Read a file into the arena without another copy. Standard input may be anything. Refuse devices: they may never end. Do not
+ * read regular files of size 0: some in /proc never end. */
 static bool read_file(struct arena *arena, const char *path, size_t max, struct source *into)
 {
     struct stat st = {0};

@@ -28,8 +28,8 @@ struct node {
     const struct node *followed; /* its content before any edit */
 };
 
-/* Read one YAML document. Return NULL on error. Aliases, anchors, tags, duplicate keys, a second document and more than 16 levels
- * are errors. */
+/* Read one YAML document. Return NULL on error. Aliases, anchors, tags, duplicate keys, a second document and more than 16
+ * levels are errors. */
 const struct node *ceduo_yaml_read(struct arena *arena, const struct source *source, struct problems *problems);
 
 /* Read one value that begins `skip` bytes into the source. */
@@ -78,8 +78,8 @@ bool ceduo_node_equal(const struct node *a, const struct node *b);
 /* Replace each reference of a scene by the content of its file, and merge stands into their bases. NULL on failure. */
 const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *root, struct problems *problems);
 
-/* Find the file that a node names; NULL: none. A path of a file is relative to that file. A path of an option is relative to the
- * scene, then to the current folder. */
+/* Find the file that a node names; NULL: none. A path of a file is relative to that file. A path of an option is relative to
+ * the scene, then to the current folder. */
 const char *ceduo_resolve_path(struct arena *arena, const struct node *node, const char *folder);
 
 /* Set the value at a path below root, through references. `set`: the whole PATH=VALUE, for messages. */
@@ -91,8 +91,8 @@ struct path_step;
 /* Find the item of a list for a step in brackets: by index, or the first with this name. Return false if there is none. */
 bool ceduo_resolve_item(const struct node *list, const struct path_step *step, size_t *index);
 
-/* Return the deepest existing node along `path`. Set *file_path to the part of the path below the root of its file, and *used to
- * the number of bytes of the path that lead to the node. */
+/* Return the deepest existing node along `path`. Set *file_path to the part of the path below the root of its file, and *used
+ * to the number of bytes of the path that lead to the node. */
 const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **file_path, size_t *used);
 
 /* Return the node at a path; NULL: none. `root` may be NULL. */

@@ -37,8 +37,8 @@ size_t ceduo_source_byte(const struct source *source, size_t line, size_t column
 #define CEDUO_PROBLEMS_MAX   20 /* problems listed */
 #define CEDUO_PROBLEMS_LINES 5  /* lines listed of further problems of a kind */
 
-/* An error or warning at a place, with the number of further ones of its kind. Problems of one kind have the same source, key and
- * words, apart from numbers. Strings are escaped, belong to the arena of the problems, and may be "". */
+/* An error or warning at a place, with the number of further ones of its kind. Problems of one kind have the same source, key
+ * and words, apart from numbers. Strings are escaped, belong to the arena of the problems, and may be "". */
 struct problem {
     const char *place;   /* "scene.yaml:3:5", an option, a row of a table */
     const char *path;    /* of the value */

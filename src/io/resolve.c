@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Resolves references: a reference is replaced by the tree of its file, which keeps the original node in `written`. A stand is
- * merged over its base. Then paths: finding a node, and setting a value, which copies the nodes from the root to it. All nodes are
- * in the caller's arena. A returned node never changes. */
+ * merged over its base. Then paths: finding a node, and setting a value, which copies the nodes from the root to it. All nodes
+ * are in the caller's arena. A returned node never changes. */
 #include "bind.h"
+#include "scene/material.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -10,7 +11,6 @@
 #include <strings.h>
 
 #include "base/language.h"
-#include "ceduo/slope.h"
 #include "file.h"
 #include "scene/choices.h"
 #include "scene/schema.h"
@@ -309,7 +309,8 @@ static const struct node *fail_at(struct resolver *s, const struct path_step *st
     return NULL;
 }
 
-/* Add the path of a changed value to `except` of the nearest `source`. Stop the path at a list index, because indices change. */
+/* Add the path of a changed value to `except` of the nearest `source`. Stop the path at a list index, because indices
+ * change. */
 static const struct node *mark_source(struct resolver *s, const struct node *map, const struct path_step *step)
 {
     const struct node *source = ceduo_node_get(map, "source"), *list = ceduo_node_get(source, "except");
@@ -343,7 +344,8 @@ static bool keeps_source(const struct resolver *s, const struct field *f, const 
            !now.source->is_option || (old && ceduo_node_equal(&before, &now));
 }
 
-/* Return the assumed ground of a slope without ground as a list, if the next step of the path names it; NULL: no, or on failure. */
+/* Return the assumed ground of a slope without ground as a list, if the next step of the path names it; NULL: no, or on
+ * failure. */
 static const struct node *make_assumed_ground(struct resolver *s, size_t offset)
 {
     const struct ceduo_material *talus = ceduo_material_talus();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads a scene: finds and reads the file, applies changes from left to right, resolves references and binds the tree. All memory
- * belongs to the arena of the scene file. */
+/* Reads a scene: finds and reads the file, applies changes from left to right, resolves references and binds the tree. All
+ * memory belongs to the arena of the scene file. */
 #include "scene_file.h"
 
 #include <errno.h>
@@ -35,6 +35,7 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     if (!ceduo_validate(&v))
         return false;
     file->scene = v.draft.scene;
+    file->scene.size = sizeof file->scene;
     file->scene.title = file->scene.title ? file->scene.title : (char *)(uintptr_t)ceduo_file_name(file->path);
     bool good = ceduo_problems_check_memory(problems) && problems->met == before;
     file->slope_node = good ? ceduo_node_get(file->root, "slope") : NULL;
@@ -102,8 +103,8 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
     return apply_change(file, (struct source){.name = option, .bytes = set, .is_option = true}, problems);
 }
 
-/* Report a name that is neither a file nor a scene of the profiles, with the nearest scene and the folders searched. `plain`: the
- * name without .yaml; NULL: no memory. */
+/* Report a name that is neither a file nor a scene of the profiles, with the nearest scene and the folders searched. `plain`:
+ * the name without .yaml; NULL: no memory. */
 static void report_no_scene(struct scene_file *file, const char *path, const char *plain, struct problems *problems)
 {
     LOCAL_TEXT(names);
@@ -164,8 +165,8 @@ static bool is_valid_with(const struct source *source, const struct scene_sets *
     return good;
 }
 
-/* Read a scene. If a change that is valid on its own makes a value of the file invalid, name the change before that problem: the
- * last --set before which the scene was valid. */
+/* Read a scene. If a change that is valid on its own makes a value of the file invalid, name the change before that problem:
+ * the last --set before which the scene was valid. */
 static bool read_source(struct scene_file *file, const struct source *source, const struct scene_sets *sets,
                         struct problems *problems)
 {

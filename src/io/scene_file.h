@@ -3,8 +3,7 @@
 #define CEDUO_SCENE_FILE_H
 
 #include "bind.h"
-#include "ceduo/scene.h"
-#include "ceduo/uncertainty.h"
+#include "ceduo/calibrate.h"
 
 /* A scene as read from its files. Everything that it points to lives in its arena. */
 struct scene_file {
@@ -65,8 +64,8 @@ bool ceduo_inputs_collect(struct scene_file *file, struct scene_inputs *inputs);
 /* Remove the inputs that change future years only. */
 void ceduo_inputs_keep_today(struct scene_inputs *inputs);
 
-/* Set input->places to the places of a fitted path. [*] selects all items, slope.materials[NAME].KEY a ground. Return the field;
- * NULL if no scene has such a number. The number of places may be 0. */
+/* Set input->places to the places of a fitted path. [*] selects all items, slope.materials[NAME].KEY a ground. Return the
+ * field; NULL if no scene has such a number. The number of places may be 0. */
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input);
 
 /* Count the places of a path, which may have [*]; 0: at least one item has no such value, so the path cannot be set. */

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The public functions that read a scene. */
-#include "ceduo/read.h"
 
 #include <stdlib.h>
 

@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "base/language.h"
+#include "study/plots.h"
 #include "survey_reader.h"
 
 /* Limits beyond which a column needs a unit (assumed). */
@@ -125,7 +126,8 @@ static bool differ_in_case(const struct survey_plot *a, const struct survey_plot
     return same;
 }
 
-/* Check two plots with one number at different sites. Rows that alternate between sites suggest that the column is not a site. */
+/* Check two plots with one number at different sites. Rows that alternate between sites suggest that the column is not a
+ * site. */
 static bool check_sites(const struct survey_reader *r, const struct survey_plot *a, const struct survey_plot *b)
 {
     size_t line = a->returned ? a->returned : b->returned, site = 0;

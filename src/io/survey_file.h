@@ -32,8 +32,8 @@ struct survey_answers {
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct survey_answers *answers,
                        struct problems *problems);
 
-/* Append the stand of a survey as a YAML file, with standard errors as `uncertainty`, and with assumptions. Report impossible densities
- * and return false; return false on failure, too. */
+/* Append the stand of a survey as a YAML file, with standard errors as `uncertainty`, and with assumptions. Report impossible
+ * densities and return false; return false on failure, too. */
 bool ceduo_survey_print_stand(const struct survey_file *file, struct text *yaml, struct problems *problems);
 
 /* Append an empty sheet as CSV in the user's language, with two example rows. */

@@ -10,6 +10,8 @@
 #include "base/language.h"
 #include "base/oom.h"
 #include "file.h"
+#include "study/naslund.h"
+#include "study/plots.h"
 #include "survey_reader.h"
 
 #define PLOTS_MAX      1000
@@ -52,8 +54,8 @@ static bool read_slope(struct survey_reader *r, struct csv_cell cell, enum csv_u
     return true;
 }
 
-/* Read a number and convert it to the unit of the manual; NaN: not given. The unit may be in the head or in the cell. Report a wrong
- * unit and return false. */
+/* Read a number and convert it to the unit of the manual; NaN: not given. The unit may be in the head or in the cell. Report a
+ * wrong unit and return false. */
 static bool read_number(struct survey_reader *r, enum column c, double *value)
 {
     struct csv_cell cell = r->fields[c];
@@ -511,8 +513,8 @@ static bool refuse_loose(struct survey_reader *r, const struct survey_plot *plot
     return ceduo_csv_error(&r->csv, ceduo_csv_next_cell(&r->csv, r->columns[STOOL]), "%s", message);
 }
 
-/* Number the stools of a plot. Its n shoots are sorted by stool. Shoots without a stool are distributed evenly over the given number
- * of stools. */
+/* Number the stools of a plot. Its n shoots are sorted by stool. Shoots without a stool are distributed evenly over the given
+ * number of stools. */
 static bool number_stools(struct survey_reader *r, const struct survey_plot *plot, const struct survey_shoot *shoots, size_t n)
 {
     const double given = plot->values[STOOLS];

@@ -49,8 +49,8 @@ extern const struct choices ceduo_survey_kind_words;
 enum survey_status { SURVEY_LIVE, SURVEY_DEAD, SURVEY_CUT };
 extern const struct choices ceduo_survey_status_words;
 
-/* Find the head and the columns of a survey, and the units in the heads. Report missing columns, duplicate columns and wrong units,
- * and return false. */
+/* Find the head and the columns of a survey, and the units in the heads. Report missing columns, duplicate columns and wrong
+ * units, and return false. */
 bool ceduo_survey_find_columns(struct csv *csv, size_t columns[COLUMNS], enum csv_unit units[COLUMNS]);
 
 /* True if the head of a column is ambiguous: h, d, n, alt. */
@@ -59,7 +59,8 @@ bool ceduo_survey_is_vague(const struct csv *csv, size_t column);
 /* Return the value of a word in a cell; -1: unknown. */
 int ceduo_survey_find_word(const struct choices *words, struct csv_cell cell);
 
-/* Return the index of a species by its name, which may have an author or an abbreviated genus; -1: unknown. `genus` may be empty. */
+/* Return the index of a species by its name, which may have an author or an abbreviated genus; -1: unknown. `genus` may be
+ * empty. */
 int ceduo_survey_find_species(struct csv_cell cell, struct csv_cell genus);
 
 struct survey_plot {
@@ -115,8 +116,8 @@ struct survey_reader {
 /* Return the area of a plot along the slope, m2; NaN: not given. */
 double ceduo_survey_area(const struct survey_plot *plot);
 
-/* Check the whole table: plots at several sites, basal area, diameters and heights. Report an error and return false if the survey is
- * refused. */
+/* Check the whole table: plots at several sites, basal area, diameters and heights. Report an error and return false if the
+ * survey is refused. */
 bool ceduo_survey_check(struct survey_reader *r, const struct ceduo_survey *survey);
 
 /* Return one line on how the table was read. `name`: of the file. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints the stand of a survey as YAML: first the findings in comments, then the stand. Comments and texts of sources are in the
- * user's language. The rest is equal in all languages. */
+/* Prints the stand of a survey as YAML: first the findings in comments, then the stand. Comments and texts of sources are in
+ * the user's language. The rest is equal in all languages. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +10,10 @@
 #include "base/text.h"
 #include "node.h"
 #include "scene/schema.h"
+#include "scene/stand.h"
+#include "scene/volume.h"
+#include "study/naslund.h"
+#include "study/plots.h"
 #include "survey_file.h"
 
 struct writer {
@@ -57,15 +61,15 @@ static void print_heights_comment(struct text *out, const char *name, const stru
 {
     if (h->missing == 0)
         return;
-    if (h->from <= CEDUO_HEIGHTS_CURVE)
+    if (h->from <= CEDUO_SURVEY_HEIGHTS_CURVE)
         ceduo_text_format(out,
                           _("# heights of %s: %zu measured; %zu by Näslund's curve, h = 1.3 + d2/(%.4g + %.4g d)2, d in cm, "
                             "residual %.2g m"),
                           name, h->given, h->missing, h->curve.a, h->curve.b, h->curve.rmse);
-    else if (h->from == CEDUO_HEIGHTS_MEAN)
+    else if (h->from == CEDUO_SURVEY_HEIGHTS_MEAN)
         ceduo_text_format(out, _("# heights of %s: %zu measured; %zu are the mean of these, %.3g m: assumed"), name, h->given,
                           h->missing, h->mean);
-    else if (h->from == CEDUO_HEIGHTS_SHOOTS)
+    else if (h->from == CEDUO_SURVEY_HEIGHTS_SHOOTS)
         ceduo_text_format(out, _("# heights of %s: none measured; %zu by the curve of the shoots: assumed"), name, h->missing);
     else
         ceduo_text_format(out,
@@ -123,8 +127,8 @@ static void print_comments(const struct writer *w)
 
 /* ---- the stand ---- */
 
-/* True if the volume of a class must be written, because the program would not compute the same volume. The program computes it if
- * all stems outside the equation are of the main species and the form factor is the usual one. */
+/* True if the volume of a class must be written, because the program would not compute the same volume. The program computes it
+ * if all stems outside the equation are of the main species and the form factor is the usual one. */
 static bool needs_volume(const struct writer *w, const struct ceduo_survey_class *c)
 {
     enum ceduo_volume_from from;
@@ -164,7 +168,7 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
         if (c->form_factor > 0)
             ceduo_text_format(&origin, _("; volume of %zu by form factor"), c->form_factor);
         ceduo_text_append(w->out, ",\n     ");
-        print_source(w->out, w->one_plot || h->from >= CEDUO_HEIGHTS_MEAN || (given && c->form_factor > 0),
+        print_source(w->out, w->one_plot || h->from >= CEDUO_SURVEY_HEIGHTS_MEAN || (given && c->form_factor > 0),
                      ceduo_text_string(&origin), "}\n");
     }
 }
@@ -182,9 +186,9 @@ static double count_stools(const struct writer *w)
 
 /* ---- future years ---- */
 
-/* With fewer standards the stand is a simple coppice, with less basal area of standards a coppice with standards, otherwise large
- * reserves (assumed; the limits lie between the shipped stands). A selection coppice is not recognized, because diameters do not show
- * the age of shoots. */
+/* With fewer standards the stand is a simple coppice, with less basal area of standards a coppice with standards, otherwise
+ * large reserves (assumed; the limits lie between the shipped stands). A selection coppice is not recognized, because diameters
+ * do not show the age of shoots. */
 #define STANDARDS_MIN     90  /* 1/ha */
 #define RESERVES_AREA_MIN 9.3 /* m2/ha */
 
@@ -322,7 +326,7 @@ static void print_uncertainties(const struct writer *w)
         const char *list = tree ? "trees" : "shoots";
         snprintf(path, sizeof path, "%s[%zu].per_ha", list, indices[tree]++);
         print_uncertainty(w, &n, path, &c->per_ha, c->per_ha.mean);
-        if ((tree ? a->trees : a->shoots).from < CEDUO_HEIGHTS_SHOOTS)
+        if ((tree ? a->trees : a->shoots).from < CEDUO_SURVEY_HEIGHTS_SHOOTS)
             continue;
         bool given = needs_volume(w, c); /* otherwise the program computes the volume from the height */
         double size = given ? c->volume : c->height, range = CEDUO_SURVEY_HEIGHT_UNCERTAINTY * size;
@@ -373,7 +377,8 @@ static void print_stand(const struct writer *w)
     print_uncertainties(w);
 }
 
-/* Report a density beyond the range of a stand, which means a wrong area, and an implausible extrapolation of the height curve. */
+/* Report a density beyond the range of a stand, which means a wrong area, and an implausible extrapolation of the height
+ * curve. */
 static bool check(const struct writer *w, struct problems *problems)
 {
     const struct ceduo_survey_result *a = w->answer;
@@ -389,7 +394,7 @@ static bool check(const struct writer *w, struct problems *problems)
                 a->classes[i].per_ha.mean, densest);
     for (size_t i = 0; i < 2; i++) {
         const struct ceduo_survey_heights *h = heights[i];
-        double tallest = h->from == CEDUO_HEIGHTS_CURVE || h->from == CEDUO_HEIGHTS_SHOOTS
+        double tallest = h->from == CEDUO_SURVEY_HEIGHTS_CURVE || h->from == CEDUO_SURVEY_HEIGHTS_SHOOTS
                              ? ceduo_naslund_height(&h->curve, h->thickest)
                              : 0;
         if (tallest > highest)
@@ -415,6 +420,6 @@ bool ceduo_survey_print_stand(const struct survey_file *file, struct text *yaml,
     bool good = check(&w, problems);
     if (good)
         print_stand(&w);
-    ceduo_survey_free(&answer);
+    ceduo_survey_release(&answer);
     return good && ceduo_problems_check_memory(problems);
 }

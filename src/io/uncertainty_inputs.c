@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds the uncertain inputs of a scene. Walks the table of keys and the scene's document together. A value that is marked as
  * assumed and has a range becomes a place of an input. Places with one origin are one input. */
+#include "scene/slope.h"
+#include "scene/stand.h"
 #include "scene_file.h"
 
 #include <math.h>
@@ -114,9 +116,9 @@ static const char *get_species_key(const struct field *field, const char *path)
     return growth ? growth + 1 : strength ? field->key : NULL;
 }
 
-/* Add a value if it is uncertain. All stands share one input for the energy law and one for its offset, which only brauner uses.
- * Stands of one species share strength of wood and growth. Other values share an input if they come from one place of one file. A
- * factor of 0 has no effect. */
+/* Add a value if it is uncertain. All stands share one input for the energy law and one for its offset, which only brauner
+ * uses. Stands of one species share strength of wood and growth. Other values share an input if they come from one place of one
+ * file. A factor of 0 has no effect. */
 static void add_value(struct input_finder *f, const struct field *field, const struct node *node)
 {
     const char *key = field->key;
@@ -133,7 +135,7 @@ static void add_value(struct input_finder *f, const struct field *field, const s
     bool is_model = strcmp(key, "model") == 0, is_offset = strcmp(key, "offset") == 0;
     bool in_uncertainty = ceduo_scene_assumes_value(f->file, path) || (law && !ceduo_stand_is_bare(&belt->stand));
     if (is_model)
-        f->brauner = belt->stand.energy == CEDUO_BRAUNER || in_uncertainty ||
+        f->brauner = belt->stand.energy == CEDUO_ENERGY_MODEL_BRAUNER || in_uncertainty ||
                      ceduo_inputs_have(f->file->inputs, f->file->inputs_count, path);
     if (!in_uncertainty || (is_offset && !f->brauner))
         return;
@@ -235,8 +237,8 @@ static const char *find_bracket(const char *path, size_t n)
     return path ? path + 1 : NULL;
 }
 
-/* Return a path for all places (at least one) of an input, with [*] for differing items. If it selects other places, too, return
- * the path of the first place. */
+/* Return a path for all places (at least one) of an input, with [*] for differing items. If it selects other places, too,
+ * return the path of the first place. */
 static const char *make_common_path(struct scene_file *file, const struct ceduo_input *input)
 {
     LOCAL_TEXT(path);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Observations of real rocks. They are a list of rows or a mapping from kinds to rows; values are inline or in tables.
  * ceduo_arrange_observed() converts all forms to the form of the table of keys before it is read. Then each row becomes one or
- * several observations. ceduo/observe.h describes the kinds. */
+ * several observations. ceduo/calibrate.h describes the observations. */
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <string.h>
@@ -9,7 +9,10 @@
 #include "base/language.h"
 #include "csv.h"
 #include "file.h"
+#include "scene/derived.h"
+#include "scene/rock.h"
 #include "scene_file.h"
+#include "study/observe.h"
 #include "validator.h"
 
 /* ---- one form ---- */
@@ -280,8 +283,8 @@ static bool check_form(const struct entry *e)
            ceduo_reject(e->v, e->path, "", _("give values, or their mean, sd and n")); /* untaken: complaint */
 }
 
-/* Check each value; report the first wrong one. Places of stopped rocks must lie on the slope after seen_from_m. Other values must
- * not be negative. */
+/* Check each value; report the first wrong one. Places of stopped rocks must lie on the slope after seen_from_m. Other values
+ * must not be negative. */
 static bool check_each(const struct entry *e)
 {
     struct validator *v = e->v;

@@ -5,15 +5,17 @@
 
 #include "base/elementary.h"
 #include "base/language.h"
+#include "scene/derived.h"
+#include "scene/rock.h"
 #include "validator.h"
 
 /* Keys and an example of each shape. A sphere has one of its keys, the other shapes have all. */
 static const struct {
     const char *keys[4], *example;
-} shapes[] = {[CEDUO_SPHERE] = {{"diameter_m", "volume_m3", "mass_kg"}, "diameter_m: 1"},
-              [CEDUO_CYLINDER] = {{"diameter_m", "height_m"}, "diameter_m: 1, height_m: 1"},
-              [CEDUO_ELLIPSOID] = {{"axes_m"}, "axes_m: [1, 1, 1]"},
-              [CEDUO_BLOCK] = {{"axes_m"}, "axes_m: [1, 1, 1]"}};
+} shapes[] = {[CEDUO_SHAPE_SPHERE] = {{"diameter_m", "volume_m3", "mass_kg"}, "diameter_m: 1"},
+              [CEDUO_SHAPE_CYLINDER] = {{"diameter_m", "height_m"}, "diameter_m: 1, height_m: 1"},
+              [CEDUO_SHAPE_ELLIPSOID] = {{"axes_m"}, "axes_m: [1, 1, 1]"},
+              [CEDUO_SHAPE_BLOCK] = {{"axes_m"}, "axes_m: [1, 1, 1]"}};
 
 static void check_rock(struct validator *v, const char *path, const struct ceduo_rock_def *def)
 {
@@ -29,7 +31,7 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct ced
     const char *const *keys = shapes[shape].keys, *name = ceduo_shape_words.names[shape];
     const struct node *node = ceduo_resolve_at(v->root, path), *shape_node = ceduo_node_get(node, "shape");
     bool is_scene_rock = strcmp(path, "rock") == 0, blocks = is_scene_rock && ceduo_node_get(v->root, "blocks");
-    bool by_mass = shape != CEDUO_SPHERE && ceduo_is_given(v, path, "mass_kg");
+    bool by_mass = shape != CEDUO_SHAPE_SPHERE && ceduo_is_given(v, path, "mass_kg");
     size_t before = v->problems->met;
     int n = 0;
     if (!ceduo_is_valid(v, "%s.shape", path))
@@ -50,16 +52,16 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct ced
     for (size_t i = 0; keys[i]; i++)
         n += ceduo_is_given(v, path, keys[i]);
     bool by_blocks = blocks && !by_mass && n == 0;
-    for (size_t i = 0; keys[i] && shape != CEDUO_SPHERE && !by_blocks; i++)
+    for (size_t i = 0; keys[i] && shape != CEDUO_SHAPE_SPHERE && !by_blocks; i++)
         if (!ceduo_is_given(v, path, keys[i]))
             ceduo_reject(v, path, "", _("'%s' is missing; the shape '%s' needs it"), keys[i], name);
-    if (shape == CEDUO_SPHERE && n != 1 && !by_blocks)
+    if (shape == CEDUO_SHAPE_SPHERE && n != 1 && !by_blocks)
         ceduo_reject(v, path, "",
                      blocks
                          ? _("with 'blocks' a sphere needs at most one of diameter_m, volume_m3 and mass_kg; here %d are given")
                          : _("a sphere needs one of diameter_m, volume_m3 and mass_kg; here %d are given"),
                      n);
-    if (shape != CEDUO_SPHERE && ceduo_node_get(node, "mass_kg") && ceduo_node_get(node, "density_kg_m3"))
+    if (shape != CEDUO_SHAPE_SPHERE && ceduo_node_get(node, "mass_kg") && ceduo_node_get(node, "density_kg_m3"))
         ceduo_reject(v, path, "density_kg_m3", _("%s already says this; keep one of the two"), "mass_kg");
     if (is_scene_rock && !ceduo_is_given(v, path, "density_kg_m3") && !by_mass)
         ceduo_assume(v, "rock.density_kg_m3",
@@ -134,20 +136,21 @@ static double mean_volume(const struct ceduo_scene *scene)
     return volume / per_year;
 }
 
-/* Set the size of a rock without one to the mean block, all dimensions equal. Figures of a single rock, such as the ADC, use it. */
+/* Set the size of a rock without one to the mean block, all dimensions equal. Figures of a single rock, such as the ADC, use
+ * it. */
 static void size_by_blocks(struct validator *v)
 {
     struct ceduo_rock_def *rock = &v->draft.scene.rock;
     const double volume = mean_volume(&v->draft.scene);
-    const double box = rock->shape == CEDUO_CYLINDER ? 4 / M_PI : rock->shape == CEDUO_ELLIPSOID ? 6 / M_PI : 1;
+    const double box = rock->shape == CEDUO_SHAPE_CYLINDER ? 4 / M_PI : rock->shape == CEDUO_SHAPE_ELLIPSOID ? 6 / M_PI : 1;
     const struct ceduo_number edge = ceduo_number(ceduo_cbrt(volume * box));
-    if (rock->shape == CEDUO_SPHERE)
+    if (rock->shape == CEDUO_SHAPE_SPHERE)
         rock->volume = ceduo_number(volume);
-    else if (rock->shape == CEDUO_CYLINDER)
+    else if (rock->shape == CEDUO_SHAPE_CYLINDER)
         rock->diameter = rock->height = edge;
     else
         rock->axes[0] = rock->axes[1] = rock->axes[2] = edge;
-    if (rock->shape != CEDUO_SPHERE)
+    if (rock->shape != CEDUO_SHAPE_SPHERE)
         ceduo_assume(v, "rock.shape", _("all dimensions of a block are equal"));
     check_rock(v, "blocks", rock);
 }
@@ -168,7 +171,7 @@ void ceduo_validate_blocks(struct validator *v)
     if (blocks->kind == NODE_MAP && !ceduo_is_given(v, "blocks", "exponent"))
         ceduo_reject(v, "blocks", "",
                      _("'exponent' is missing; the number of blocks above a volume v is proportional to v^-exponent"));
-    if (r->shape == CEDUO_SPHERE && spreads && ceduo_is_valid_below(v, "rock")) /* a sphere has no proportions */
+    if (r->shape == CEDUO_SHAPE_SPHERE && spreads && ceduo_is_valid_below(v, "rock")) /* a sphere has no proportions */
         ceduo_reject(v, "rock", "", _("'blocks' gives the sizes of rocks; remove the size here, or its spread"));
     if (ceduo_is_too_long(v, "blocks", n) || !ceduo_is_valid_below(v, "blocks"))
         return;

@@ -8,6 +8,7 @@
 #include "base/oom.h"
 #include "csv.h"
 #include "scene/ranges.h"
+#include "scene/slope.h"
 #include "scene_file.h"
 #include "validator.h"
 
@@ -316,12 +317,12 @@ static size_t count_points(const struct ceduo_slope *slope, double tolerance, do
     if (ceduo_slope_simplify(&copy, release_x, &to) != CEDUO_OK)
         ceduo_oom_set_flag();
     size_t n = to.x ? to.vertices : slope->vertices;
-    ceduo_slope_simplified_free(&to);
+    ceduo_slope_simplified_release(&to);
     return n;
 }
 
-/* Add the tolerance as an assumption, unless the file gives it or both ends of its range keep equally many points. A reused slope
- * keeps its last answer. */
+/* Add the tolerance as an assumption, unless the file gives it or both ends of its range keep equally many points. A reused
+ * slope keeps its last answer. */
 static void assume_tolerance(struct validator *v, double release_x)
 {
     const struct ceduo_slope *s = &v->draft.scene.slope;
@@ -358,5 +359,5 @@ void ceduo_simplify_slope(struct validator *v)
         s->simplified_to = to.simplified_to;
         s->simplified_at = to.simplified_at;
     }
-    ceduo_slope_simplified_free(&to);
+    ceduo_slope_simplified_release(&to);
 }

@@ -4,7 +4,8 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/rotation.h"
+#include "core/stand/rotation.h"
+#include "scene/stand.h"
 #include "validator.h"
 
 #define SHOOTS_MAX 10000 /* on a stool */
@@ -58,15 +59,15 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
 {
     ceduo_stand_update_shoot_density(s);
     if ((int)s->system < 0)
-        s->system = ceduo_stand_has_shoots(s)  ? CEDUO_SIMPLE_COPPICE
-                    : ceduo_stand_has_stems(s) ? CEDUO_HIGH_FOREST
-                                               : CEDUO_BARE;
+        s->system = ceduo_stand_has_shoots(s)  ? CEDUO_SYSTEM_SIMPLE_COPPICE
+                    : ceduo_stand_has_stems(s) ? CEDUO_SYSTEM_HIGH_FOREST
+                                               : CEDUO_SYSTEM_BARE;
     if (!ceduo_is_valid(v, "%s", path)) /* its base is unreadable */
         return;
     if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_valid(v, "%s.growth.shoots_young", path))
         ceduo_reject(v, path, "growth.shoots_young", _("%s is below the number of old shoots, %s; shoots can only decrease"),
                      ROUNDTRIP(s->growth.shoots_young), ROUNDTRIP(s->growth.shoots_old));
-    if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
+    if (s->system == CEDUO_SYSTEM_BARE && ceduo_stand_has_stems(s))
         ceduo_reject(v, path, "system", _("'bare' has no stems; name the system, or remove the stems"));
     for (size_t i = 0; i < s->shoots_count; i++) { /* per_ha or per_stool is required */
         const char *item_path = ceduo_asprintf(v, "%s.shoots[%zu]", path, i);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Uncertain inputs of a scene and its stands: each row of `uncertainty` becomes an input with its places. Calibration draws are one more
- * input, from a table with a column for each fitted value. The head of a column is a path, or several separated by blanks. A row of
- * the table is one joint draw of all values. */
+/* Uncertain inputs of a scene and its stands: each row of `uncertainty` becomes an input with its places. Calibration draws are
+ * one more input, from a table with a column for each fitted value. The head of a column is a path, or several separated by
+ * blanks. A row of the table is one joint draw of all values. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -574,8 +574,8 @@ static void check_end(struct ends *e, size_t i, size_t k, size_t j, size_t m)
                      describe_status(status));
 }
 
-/* Report ranges with an end at which the scene cannot be computed: first of each input alone, then of each pair of places along the
- * slope. */
+/* Report ranges with an end at which the scene cannot be computed: first of each input alone, then of each pair of places along
+ * the slope. */
 void ceduo_validate_ends(struct validator *v)
 {
     size_t n = v->file->inputs_count, places_count = 0, before = v->problems->met;

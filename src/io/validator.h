@@ -3,9 +3,6 @@
 #define CEDUO_VALIDATOR_H
 
 #include "bind.h"
-#include "ceduo/observe.h"
-#include "ceduo/slope.h"
-#include "ceduo/uncertainty.h"
 
 /* Validation of a scene. Each subject has a file, validate_*.c. */
 
@@ -29,8 +26,8 @@ struct validator {
 };
 
 /* Build a scene from the values of its files and check it. Places become relative to the first vertex of the slope. Materials
- * become ground, controls_m becomes controls, a forest becomes an option. Return false if the errors, or missing memory, prevent
- * further checks. */
+ * become ground, controls_m becomes controls, a forest becomes an option. Return false if the errors, or missing memory,
+ * prevent further checks. */
 bool ceduo_validate(struct validator *v);
 
 /* Checks by subject, in the order in which the scene is built. */
@@ -94,7 +91,8 @@ bool ceduo_is_too_long(struct validator *v, const char *path, size_t n);
 /* True if x, in the coordinates of the file, lies on the profile, or if the profile is unknown; otherwise reports it. */
 bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key, double x);
 
-/* Check a stretch, from_m to to_m of the mapping at `path`: it lies on the profile and ends after it begins; only the latter. */
+/* Check a stretch, from_m to to_m of the mapping at `path`: it lies on the profile and ends after it begins; only the
+ * latter. */
 bool ceduo_check_stretch(struct validator *v, const char *path, double from, double to);
 bool ceduo_check_order(struct validator *v, const char *path, double from, double to);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads the events of libyaml into nodes, by recursion. Refuses aliases, tags and deep nesting, which no scene needs. Stops at the
- * first problem. */
+/* Reads the events of libyaml into nodes, by recursion. Refuses aliases, tags and deep nesting, which no scene needs. Stops at
+ * the first problem. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,8 +16,8 @@
 #define VALUES_MAX 250000 /* of one file: 80000 vertices. Each value needs some 160 bytes. */
 #define TEXT_MAX   65536  /* bytes of one value */
 
-/* An escape of two halves that was joined. From this column of its line on, as libyaml counts, columns in the file are larger by
- * JOINED_SHORTER. */
+/* An escape of two halves that was joined. From this column of its line on, as libyaml counts, columns in the file are larger
+ * by JOINED_SHORTER. */
 struct joined {
     size_t line, column;
 };

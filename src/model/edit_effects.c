@@ -6,8 +6,9 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/rotation.h"
+#include "core/stand/rotation.h"
 #include "document.h"
+#include "scene/rock.h"
 
 /* A changed value and its side effects. */
 struct follow {
@@ -188,10 +189,10 @@ static void fill_in(struct follow *f, const char *path, const char *value)
 /* Replace the sizes so that the new shape keeps the volume. Ellipsoid and block have the same sizes. */
 static void change_shape(struct follow *f, enum ceduo_shape shape)
 {
-    static const double full[] = {[CEDUO_SPHERE] = 6, [CEDUO_CYLINDER] = 4, [CEDUO_ELLIPSOID] = 6};
+    static const double full[] = {[CEDUO_SHAPE_SPHERE] = 6, [CEDUO_SHAPE_CYLINDER] = 4, [CEDUO_SHAPE_ELLIPSOID] = 6};
     const struct ceduo_rock_def *def = &f->d->file.scene.rock;
-    bool cylinder = def->shape == CEDUO_CYLINDER, round = cylinder || def->shape == CEDUO_SPHERE;
-    bool new_axes = shape == CEDUO_ELLIPSOID || shape == CEDUO_BLOCK, mass = !isnan(def->mass.mean);
+    bool cylinder = def->shape == CEDUO_SHAPE_CYLINDER, round = cylinder || def->shape == CEDUO_SHAPE_SPHERE;
+    bool new_axes = shape == CEDUO_SHAPE_ELLIPSOID || shape == CEDUO_SHAPE_BLOCK, mass = !isnan(def->mass.mean);
     bool sized = false; /* blocks may give the size instead */
     static const char *const sizes[] = {"rock.diameter_m", "rock.height_m", "rock.volume_m3", "rock.mass_kg", "rock.axes_m"};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
@@ -202,18 +203,18 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
     if (new_axes)
         drop_entry(f, "rock", "diameter_m");
     drop_entry(f, "rock", "volume_m3");
-    if (shape != CEDUO_CYLINDER)
+    if (shape != CEDUO_SHAPE_CYLINDER)
         drop_entry(f, "rock", "height_m");
     if (!new_axes)
         drop_entry(f, "rock", "axes_m");
     double s[3]; /* length, width, height: volume = their product times a factor of the shape */
     for (int i = 0; i < 3; i++)
         s[i] = !round ? def->axes[i].mean : !cylinder ? rock.mean_diameter : i < 2 ? def->diameter.mean : def->height.mean;
-    double box = shape == CEDUO_BLOCK ? rock.volume : rock.volume * full[shape] / M_PI;
+    double box = shape == CEDUO_SHAPE_BLOCK ? rock.volume : rock.volume * full[shape] / M_PI;
     double scale = cbrt(box / (s[0] * s[1] * s[2]));
-    if (shape == CEDUO_SPHERE) {
+    if (shape == CEDUO_SHAPE_SPHERE) {
         fill_in(f, "rock.diameter_m", rounded(f, cbrt(box), 3));
-    } else if (shape == CEDUO_CYLINDER) {
+    } else if (shape == CEDUO_SHAPE_CYLINDER) {
         fill_in(f, "rock.diameter_m", rounded(f, scale * sqrt(s[0] * s[1]), 3));
         fill_in(f, "rock.height_m", rounded(f, scale * s[2], 3));
     } else {
@@ -221,7 +222,7 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
                 ceduo_arena_format(f->arena, "[%s, %s, %s]", rounded(f, scale * s[0], 3), rounded(f, scale * s[1], 3),
                                    rounded(f, scale * s[2], 3)));
     }
-    if (shape == CEDUO_SPHERE && mass) { /* a sphere takes mass as a size */
+    if (shape == CEDUO_SHAPE_SPHERE && mass) { /* a sphere takes mass as a size */
         drop_entry(f, "rock", "mass_kg");
         fill_in(f, "rock.density_kg_m3", rounded(f, rock.mass / rock.volume, 4));
     } else if (mass) {
@@ -236,7 +237,7 @@ static void change_shape(struct follow *f, enum ceduo_shape shape)
 static void follow_cylinder(struct follow *f)
 {
     static const char *const keys[] = {"rock.diameter_m", "rock.height_m"};
-    for (int i = 0; f->d->file.scene.rock.shape == CEDUO_CYLINDER && i < 2; i++)
+    for (int i = 0; f->d->file.scene.rock.shape == CEDUO_SHAPE_CYLINDER && i < 2; i++)
         if (strcmp(f->path, keys[i]) == 0 && !ceduo_document_node(f->d, keys[1 - i])) {
             ceduo_changes_set(&f->changes, keys[1 - i], "%s", f->value);
             ceduo_text_append(&f->followed, _("diameter and height are now equal"));
@@ -267,7 +268,7 @@ static void follow_share(struct follow *f)
 static void keep_one_of_all(struct follow *f)
 {
     static const char *const rock_keys[2][3] = {{"mass_kg", "density_kg_m3"}, {"diameter_m", "volume_m3", "mass_kg"}};
-    bool sphere = f->d->file.scene.rock.shape == CEDUO_SPHERE, is_one = false; /* for a sphere, mass is a size */
+    bool sphere = f->d->file.scene.rock.shape == CEDUO_SHAPE_SPHERE, is_one = false; /* for a sphere, mass is a size */
     const char *dot = strrchr(f->path, '.'), *key = dot ? dot + 1 : f->path;
     const char *map = ceduo_arena_copy(f->arena, f->path, dot ? (size_t)(dot - f->path) : 0);
     const struct field *holder = ceduo_schema_row(map), *field = ceduo_schema_at(f->path);

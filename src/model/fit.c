@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit.h"
+#include "study/predict.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -107,7 +108,7 @@ void ceduo_fit_offer(const struct scene_file *file, struct fit_request *request)
 bool ceduo_fit_has_observations(const struct scene_file *file)
 {
     for (size_t i = 0; i < file->observations_count; i++)
-        if (file->observations[i].use == CEDUO_OBSERVED_FIT)
+        if (file->observations[i].use == CEDUO_OBSERVED_USE_FIT)
             return true;
     return false;
 }
@@ -140,7 +141,7 @@ enum ceduo_status ceduo_fit_compute(const struct scene_file *file, const struct 
 void ceduo_fit_free(void *fit)
 {
     struct fit *f = fit;
-    ceduo_calibration_free(&f->answer);
+    ceduo_calibration_release(&f->answer);
     ceduo_arena_free(&f->file.arena);
     free(f);
 }

@@ -2,7 +2,6 @@
 #ifndef CEDUO_FIT_H
 #define CEDUO_FIT_H
 
-#include "ceduo/calibrate.h"
 #include "document.h"
 
 /* Fit of values of the live scene to its observations. */

@@ -2,6 +2,11 @@
 /* One thread takes the coarsest step of all jobs and works on a copy of the job without the lock. It publishes the result
  * unless the job was replaced. A new job cancels the running step. The queue owns results until they are taken. */
 #include "jobs.h"
+#include "core/runs/alternative_law.h"
+#include "core/runs/key.h"
+#include "core/runs/year_runs.h"
+#include "study/observe.h"
+#include "study/predict.h"
 
 #include <fcntl.h>
 #include <gsl/gsl_sort.h>
@@ -16,7 +21,6 @@
 #include "base/language.h"
 #include "base/oom.h"
 #include "base/text.h"
-#include "ceduo/key.h"
 #include "study/effort.h"
 
 #define LEVELS_MAX 9
@@ -87,7 +91,7 @@ static void free_uncertainty(void *result)
 {
     struct uncertainty *u = result;
     if (u->answer.figures)
-        ceduo_uncertainty_free(&u->answer);
+        ceduo_uncertainty_release(&u->answer);
     ceduo_arena_free(&u->file.arena);
     free(u);
 }
@@ -230,7 +234,7 @@ static enum ceduo_status step_years(struct jobs *q, struct job *job, void **resu
 
 const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
 {
-    if (scene->simulation.contact_model == CEDUO_INDEX)
+    if (scene->simulation.contact_model == CEDUO_CONTACT_MODEL_INDEX)
         return N_("not computed: years by the index have no uncertainty");
     return ceduo_scene_window(scene).kind == CEDUO_WINDOW_CONSTANT ? N_("not computed: all years are the same") : NULL;
 }
@@ -267,7 +271,8 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
     job->level = u->last ? LEVELS_MAX : u->level;
     if (u->inputs.n == 0)
         return CEDUO_OK;
-    struct ceduo_uncertainty_def def = {.scene = scene, .inputs_count = u->inputs.n, .inputs = u->inputs.items, .brief = true};
+    struct ceduo_uncertainty_def def = {
+        .size = sizeof def, .scene = scene, .inputs_count = u->inputs.n, .inputs = u->inputs.items, .brief = true};
     def.points = CEDUO_UNCERTAINTY_POINTS;
     def.rocks = CEDUO_UNCERTAINTY_ROCKS;
     def.rotation = !ceduo_uncertainty_no_rotation(scene);
@@ -336,7 +341,7 @@ static enum ceduo_status step_fit(struct jobs *q, struct job *job, void **result
 {
     struct publisher publisher = {.queue = q, .job = job};
     const struct ceduo_calibration_def def = {
-        .threads = q->threads, .cancel = &q->cancel, .progress = publish_progress, .context = &publisher};
+        .size = sizeof def, .threads = q->threads, .cancel = &q->cancel, .progress = publish_progress, .context = &publisher};
     struct fit *fit = *result = ceduo_check_memory(calloc(1, sizeof *fit));
     return ceduo_fit_compute(&job->file, &job->fit, &def, fit);
 }
@@ -510,7 +515,7 @@ static bool enqueue(struct jobs *q, const struct job *job)
 
 bool ceduo_jobs_request_figures(struct jobs *q, const struct scene_file *file, size_t shown)
 {
-    bool index = file->scene.simulation.contact_model == CEDUO_INDEX; /* the index uses no other energy law */
+    bool index = file->scene.simulation.contact_model == CEDUO_CONTACT_MODEL_INDEX; /* the index uses no other energy law */
     struct job figures = make_job(JOB_SNAPSHOT, file, shown, RUNS_LEVELS);
     struct job alternatives = make_job(JOB_ALTERNATIVES, file, shown, index ? 0 : RUNS_LEVELS - 1);
     struct job years = make_job(JOB_YEARS, file, shown, RUNS_LEVELS - 1);

@@ -2,8 +2,6 @@
 #ifndef CEDUO_JOBS_H
 #define CEDUO_JOBS_H
 
-#include "ceduo/calibrate.h"
-#include "ceduo/uncertainty.h"
 #include "fit.h"
 #include "runs.h"
 #include "search.h"

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "live.h"
+#include "core/runs/alternative_law.h"
+#include "core/runs/result.h"
+#include "core/runs/year_runs.h"
 
 #include <math.h>
 
@@ -50,7 +53,7 @@ double ceduo_live_uncertainty_progress(const struct live *l, const struct scene_
 bool ceduo_live_is_stale(const struct live *l, const struct ceduo_scene *scene, size_t option)
 {
     const struct ceduo_snapshot *o = ceduo_live_snapshot(l, scene);
-    bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
+    bool wooded = scene->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX;
     return !o || l->results.snapshot->key != l->requested_key || (wooded && !(option < o->options && o->wooded[option]));
 }
 

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "runs.h"
+#include "core/runs/alternative_law.h"
+#include "core/runs/key.h"
+#include "core/runs/pool.h"
+#include "core/runs/run.h"
+#include "core/runs/year_runs.h"
 
 #include <stdlib.h>
 
 #include "base/hash.h"
 #include "base/oom.h"
-#include "ceduo/key.h"
 
 struct runs {
     unsigned threads;
@@ -92,7 +96,7 @@ static enum ceduo_status publish_figures(struct runs *r, const struct runs_step 
 enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
 {
     const struct ceduo_scene *scene = step->scene;
-    bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
+    bool wooded = scene->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX;
     struct ceduo_run *run;
     enum ceduo_status status = set_pools(r, scene);
     if (status == CEDUO_OK)

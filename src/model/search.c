@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/request.h"
 #include "scene/schema.h"
 #include "scene/value.h"
 #include "study/inputs.h"
@@ -130,7 +129,8 @@ static enum ceduo_status evaluate_once(struct search *s, double value, struct re
             inputs.items[n++] = inputs.items[i];
     s->answer->sure.inputs = n;
     struct reliability_def def = {.goal = s->def.goal, .target = s->passes, .sure = s->def.sure};
-    def.uncertainty = (struct ceduo_uncertainty_def){.scene = &s->file->scene, .inputs_count = n, .inputs = inputs.items};
+    def.uncertainty = (struct ceduo_uncertainty_def){
+        .size = sizeof(struct ceduo_uncertainty_def), .scene = &s->file->scene, .inputs_count = n, .inputs = inputs.items};
     def.uncertainty.option = s->def.option;
     def.uncertainty.rotation = s->def.rotation;
     def.uncertainty.points = s->answer->sure.points;
@@ -157,7 +157,7 @@ static enum ceduo_status read_error(struct search *s, const struct ceduo_find_de
 {
     const struct ceduo_found *f = &sure->found;
     struct reliability_result middle, lo, hi;
-    double sign = f->side == CEDUO_SMALLEST ? -1 : 1, width = def->hi - def->lo, half = ERROR_STEP * width;
+    double sign = f->side == CEDUO_SIDE_SMALLEST ? -1 : 1, width = def->hi - def->lo, half = ERROR_STEP * width;
     enum ceduo_status status = evaluate_once(s, f->value, &middle);
     for (int i = 0; i < ERROR_STEPS && status == CEDUO_OK; i++) {
         double from = fmax(def->lo, f->value - half), to = fmin(def->hi, f->value + half);
@@ -246,7 +246,7 @@ static bool has_requirements(const struct search *s)
         if (isnan(scene->controls[c].accepted))
             return ceduo_problem(s->problems, &goal_source, 0, 0, _("exceed: control %zu has no limit (accepted_kJ); add it"),
                                  c + 1);
-    if (needs_accepted && s->file->scene.simulation.contact_model == CEDUO_INDEX)
+    if (needs_accepted && s->file->scene.simulation.contact_model == CEDUO_CONTACT_MODEL_INDEX)
         return ceduo_problem(s->problems, &goal_source, 0, 0,
                              _("exceed: with contact_model index no rock is simulated in the forest"));
     if (s->def.sure > 0 && s->def.rotation && s->def.goal == CEDUO_GOAL_ENERGY)
@@ -285,7 +285,8 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
         return CEDUO_BAD_SLOPE;
     bool counted = field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* as foresters count */
     bool whole = s->whole = counted || (field && strcmp(field->unit, "y") == 0);
-    struct ceduo_find_def def = {.lo = whole ? ceil(s->def.lo) : s->def.lo,
+    struct ceduo_find_def def = {.size = sizeof def,
+                                 .lo = whole ? ceil(s->def.lo) : s->def.lo,
                                  .hi = whole ? floor(s->def.hi) : s->def.hi,
                                  .whole = whole,
                                  .target = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target,

@@ -2,9 +2,6 @@
 #ifndef CEDUO_SEARCH_H
 #define CEDUO_SEARCH_H
 
-#include "ceduo/assess.h"
-#include "ceduo/find.h"
-#include "ceduo/yield.h"
 #include "io/scene_file.h"
 #include "study/goal.h"
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "choices.h"
+#include "ceduo/scene.h"
 
 #include <string.h>
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "ceduo/scene.h"
 
 #define FOLDED_MAX 64 /* maximum compared bytes of a word */
 

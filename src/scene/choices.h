@@ -15,8 +15,8 @@ extern const struct choices ceduo_shape_words, ceduo_facets_words, ceduo_system_
     ceduo_flag_words, ceduo_quality_words, ceduo_law_words, ceduo_rule_words, ceduo_contact_model_words, ceduo_spread_words,
     ceduo_use_words, ceduo_species_words, ceduo_material_words;
 
-/* Define a library from an X-macro of rows: name, synonyms, members of struct ceduo_KIND after the name. Defines KIND_rows, their
- * names and ceduo_KIND_words. The macro `synonyms` makes all words of a row from its arguments. */
+/* Define a library from an X-macro of rows: name, synonyms, members of struct ceduo_KIND after the name. Defines KIND_rows,
+ * their names and ceduo_KIND_words. The macro `synonyms` makes all words of a row from its arguments. */
 #define LIBRARY(kind, LIST, synonyms)                                                                                          \
     static const struct ceduo_##kind kind##_rows[] = {LIST(LIBRARY_ROW)};                                                      \
     static const char *const kind##_names[] = {LIST(LIBRARY_NAME)};                                                            \

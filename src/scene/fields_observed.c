@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Keys of observations of real rocks. Their kinds are in ceduo/scene.h. */
-#include "ceduo/scene.h"
 #include "fields.h"
 
 #define KIND_VALUES(KIND) MEMBER(observed, values[CEDUO_OBSERVED_##KIND])

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/slope.h"
 
+#include "material.h"
 #include "base/language.h"
 #include "choices.h"
 

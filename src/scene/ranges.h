@@ -2,7 +2,7 @@
 #ifndef CEDUO_RANGES_H
 #define CEDUO_RANGES_H
 
-#include "ceduo/slope.h"
+#include "material.h"
 #include "schema.h"
 
 /* Default uncertainty range of an assumed value. */

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/scene.h"
 
 #include <math.h>
+
+#include "regulation.h"
+#include "stand.h"
 
 /* Return the first rule that applies to the stand. */
 static const struct ceduo_regulation_item *find_item(const struct ceduo_regulation_item *items, size_t n,
@@ -26,7 +28,7 @@ struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *r,
 {
     double standards = stand->cutting.retained_count > 0 ? ceduo_stand_retained_per_ha(stand) : ceduo_stand_trees(stand);
     struct ceduo_compliance c = {.standards = standards, .turn = NAN};
-    if (!r->name || stand->system == CEDUO_HIGH_FOREST || stand->system == CEDUO_BARE)
+    if (!r->name || stand->system == CEDUO_SYSTEM_HIGH_FOREST || stand->system == CEDUO_SYSTEM_BARE)
         return c;
     if (stand->cutting.rotation > 0)
         c.turn = (double)stand->cutting.rotation * (stand->cutting.cohorts > 1 ? stand->cutting.cohorts : 1);

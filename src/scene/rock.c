@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/rock.h"
 
 #include <math.h>
 #include <stddef.h>
 
 #include "base/elementary.h"
+#include "rock.h"
 
 #define TRUNCATION_SD   3.0                   /* standard deviations at which a normal distribution is truncated */
 #define TRUNCATED_SHARE 0.0013498980316300946 /* probability below -TRUNCATION_SD */
 
 struct ceduo_number ceduo_number(double mean)
 {
-    return (struct ceduo_number){.mean = mean, .spread = 0, .kind = CEDUO_NORMAL};
+    return (struct ceduo_number){.mean = mean, .spread = 0, .kind = CEDUO_SPREAD_NORMAL};
 }
 
 static double half_range(struct ceduo_number n)
 {
-    return n.kind == CEDUO_NORMAL ? TRUNCATION_SD * n.spread : n.spread;
+    return n.kind == CEDUO_SPREAD_NORMAL ? TRUNCATION_SD * n.spread : n.spread;
 }
 
 double ceduo_number_min(struct ceduo_number n)
@@ -36,7 +36,7 @@ double ceduo_number_draw(struct ceduo_number n, double u, double lo, double hi)
     double lowest = ceduo_number_min(n), highest = ceduo_number_max(n);
     lo = fmax(lo, lowest);
     hi = fmin(hi, highest);
-    if (n.kind == CEDUO_UNIFORM)
+    if (n.kind == CEDUO_SPREAD_UNIFORM)
         return lo + u * (hi - lo);
     double p_lo = lo == lowest ? TRUNCATED_SHARE : ceduo_normal_cdf((lo - n.mean) / n.spread);
     double p_hi = hi == highest ? 1 - TRUNCATED_SHARE : ceduo_normal_cdf((hi - n.mean) / n.spread);
@@ -69,7 +69,7 @@ static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, const union siz
     for (size_t i = 0; i < 8; i++)
         good = good && !(s->values[i] <= 0) && !isinf(s->values[i]);
     switch (shape) {
-    case CEDUO_SPHERE:
+    case CEDUO_SHAPE_SPHERE:
         if (isnan(d))
             d = ceduo_cbrt(6 * (isnan(s->volume) ? s->mass / s->density : s->volume) / M_PI);
         good = good && !(isnan(s->diameter) && isnan(s->volume) && isnan(s->mass));
@@ -77,19 +77,19 @@ static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, const union siz
         rock->mean_diameter = a[0] = a[1] = a[2] = d;
         rock->k = 2.0 / 5;
         break;
-    case CEDUO_CYLINDER:
+    case CEDUO_SHAPE_CYLINDER:
         rock->volume = M_PI / 4 * d * d * h;
         rock->mean_diameter = (d + h) / 2;
         a[0] = a[1] = d;
         a[2] = h;
         rock->k = 1.0 / 2;
         break;
-    case CEDUO_ELLIPSOID:
+    case CEDUO_SHAPE_ELLIPSOID:
         rock->volume = M_PI / 6 * a[0] * a[1] * a[2];
         rock->mean_diameter = (a[0] + a[1] + a[2]) / 3;
         rock->k = 2.0 / 5;
         break;
-    case CEDUO_BLOCK:
+    case CEDUO_SHAPE_BLOCK:
         longest = fmax(a[0], fmax(a[1], a[2]));
         squares = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] - longest * longest;
         rock->volume = a[0] * a[1] * a[2];

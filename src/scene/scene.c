@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/scene.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "derived.h"
+#include "rock.h"
 #include "schema.h"
+#include "slope.h"
+#include "stand.h"
 
 #define SPEED_MAX 1e12 /* m, m/s, rad/s: of a release; above it the numbers of a flight overflow */
 
@@ -114,7 +117,7 @@ void ceduo_scene_average_releases(struct ceduo_scene *scene)
 
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *bad_control)
 {
-    if (!scene)
+    if (!scene || scene->size != sizeof *scene)
         return CEDUO_BAD_ARGUMENT;
     struct ceduo_rock rock;
     enum ceduo_status status = ceduo_rock_from_means(&scene->rock, &rock);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "schema.h"
+#include "rock.h"
 
 #include <math.h>
 #include <string.h>
@@ -263,6 +264,7 @@ struct ceduo_scene ceduo_scene_default(void)
 {
     struct scene_draft draft;
     ceduo_schema_init(ceduo_schema_scene(), &draft);
+    draft.scene.size = sizeof draft.scene;
     draft.scene.release.x.mean = 0;  /* the first vertex */
     draft.scene.slope.tolerance = 0; /* the default is for ground from the library */
     return draft.scene;

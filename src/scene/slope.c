@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/slope.h"
 
 #include <gsl/gsl_interp.h>
 #include <math.h>
@@ -7,6 +6,7 @@
 #include <string.h>
 
 #include "base/elementary.h"
+#include "slope.h"
 
 size_t ceduo_slope_segment(const struct ceduo_slope *slope, double x)
 {
@@ -200,11 +200,11 @@ enum ceduo_status ceduo_slope_simplify(const struct ceduo_slope *slope, double r
     free(stack);
     if (good)
         return CEDUO_OK;
-    ceduo_slope_simplified_free(to);
+    ceduo_slope_simplified_release(to);
     return CEDUO_NO_MEMORY;
 }
 
-void ceduo_slope_simplified_free(struct ceduo_slope *slope)
+void ceduo_slope_simplified_release(struct ceduo_slope *slope)
 {
     free(slope->x);
     free(slope->z);

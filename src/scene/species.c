@@ -2,8 +2,8 @@
 #include <math.h>
 
 #include "base/language.h"
-#include "ceduo/stand.h"
 #include "choices.h"
+#include "species.h"
 
 /* Table 4 of Ciabocco et al. 2009, after Brauner et al. 2005. */
 #define U_BEECH  102800

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/stand.h"
 
 #include <math.h>
 
+#include "stand.h"
 #include "volume.h"
 
 void ceduo_stand_update_shoot_density(struct ceduo_stand *stand)

@@ -4,7 +4,11 @@
 
 #include <math.h>
 
-#include "ceduo/stand.h"
+#include "ceduo/scene.h"
+
+#define CEDUO_FORM_FACTOR 0.5
+
+enum ceduo_volume_from { CEDUO_VOLUME_GIVEN, CEDUO_VOLUME_EQUATION, CEDUO_VOLUME_FORM_FACTOR };
 
 /* Volume of a stem by its diameter, prepared for many stems of one kind. It is the given volume, or follows from the equation
  * of the species inside its rectangle of dbh and height. Outside, the form factor at the nearest point applies, so that the
@@ -62,5 +66,10 @@ static inline double stem_volume_one(const struct stem_volume *v, double dbh)
 {
     return isnan(v->given) ? stem_volume_computed(v, dbh, NULL) : v->given * (dbh * dbh / v->squares);
 }
+
+/* Return the volume (m3) of one of `stems`, and set its source. A given volume comes first, then the equation of the species
+ * inside its rectangle of dbh and height. Outside, the form factor at the nearest point of the rectangle applies (assumed).
+ * Without a species the volume is form factor 0.5 × basal area × height. */
+double ceduo_stem_volume(const struct ceduo_stand *stand, const struct ceduo_stems *stems, enum ceduo_volume_from *from);
 
 #endif

@@ -3,7 +3,6 @@
  * points. A point is a row u of numbers in (0, 1), one for each parameter. Chains move in y = log(u/(1 - u)), so they cannot
  * cross a bound. Each worker has its own copies of the scenes. At the end predict.c predicts all observations from draws of
  * the chains. */
-#include "ceduo/calibrate.h"
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
@@ -14,10 +13,12 @@
 
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
-#include "ceduo/statistics.h"
 #include "chains.h"
 #include "check_study.h"
+#include "core/runs/statistics.h"
 #include "fitting.h"
+#include "predict.h"
+#include "surface.h"
 
 #define POINTS            256
 #define FIRST_STEP        0.3 /* standard deviation of the first steps, in y */
@@ -107,7 +108,7 @@ static int evaluate_point(void *context, size_t i, size_t worker)
 {
     struct fitting *f = context;
     enum ceduo_status status = evaluate(f, worker, f->training + i * f->def->parameters_count, &f->training_values[i]);
-    report_progress(f, CEDUO_SEARCH, NAN, NAN);
+    report_progress(f, CEDUO_CALIBRATION_STAGE_SEARCH, NAN, NAN);
     return (int)status;
 }
 
@@ -179,7 +180,7 @@ static enum ceduo_status train_surrogate(void *context, const double *y, const d
 static bool report_round(void *context, size_t steps, double rhat, double effective_size)
 {
     (void)steps;
-    report_progress(context, CEDUO_CHAINS, rhat, effective_size);
+    report_progress(context, CEDUO_CALIBRATION_STAGE_CHAINS, rhat, effective_size);
     return true;
 }
 
@@ -299,7 +300,7 @@ bool ceduo_calibration_identifies_mu(const struct ceduo_calibration_scene *scene
     for (size_t s = 0; s < n; s++)
         for (size_t i = 0; i < scenes[s].observations_count; i++) {
             const struct ceduo_observation *observation = &scenes[s].observations[i];
-            if (observation->use != CEDUO_OBSERVED_FIT || scenes[s].scene->simulation.law != CEDUO_LAW_ARM)
+            if (observation->use != CEDUO_OBSERVED_USE_FIT || scenes[s].scene->simulation.law != CEDUO_LAW_ARM)
                 continue;
             const struct ceduo_rock rock = ceduo_rock_mean(observation->rock ? observation->rock : &scenes[s].scene->rock);
             const double *a = rock.axes, sum = a[0] + a[1] + a[2];
@@ -334,7 +335,7 @@ static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_cali
         struct fitting_scene *to = &f->scenes[s];
         struct ceduo_observation *fitted = ceduo_arena_alloc(&f->memory, (from->observations_count + 1) * sizeof *fitted);
         for (size_t i = 0; fitted && i < from->observations_count; i++)
-            if (from->observations[i].use == CEDUO_OBSERVED_FIT)
+            if (from->observations[i].use == CEDUO_OBSERVED_USE_FIT)
                 fitted[to->fit_count++] = from->observations[i];
         f->fit_count += to->fit_count;
         f->all_count += from->observations_count;
@@ -367,7 +368,8 @@ static void close_fitting(struct fitting *f)
 
 struct ceduo_calibration_def ceduo_calibration_def_default(void)
 {
-    return (struct ceduo_calibration_def){.rocks = CEDUO_CALIBRATION_ROCKS, .seed = 1, .threads = 1};
+    return (struct ceduo_calibration_def){
+        .size = sizeof(struct ceduo_calibration_def), .rocks = CEDUO_CALIBRATION_ROCKS, .seed = 1, .threads = 1};
 }
 
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *a)
@@ -396,11 +398,11 @@ enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struc
     ceduo_chains_release(&chains);
     close_fitting(&f);
     if (status != CEDUO_OK)
-        ceduo_calibration_free(a);
+        ceduo_calibration_release(a);
     return status;
 }
 
-void ceduo_calibration_free(struct ceduo_calibration *a)
+void ceduo_calibration_release(struct ceduo_calibration *a)
 {
     free(a->predicted);
     free(a->draws);

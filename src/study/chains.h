@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "ceduo/status.h"
+#include "ceduo/scene.h"
 
 /* Adaptive Metropolis chains (Haario, Saksman and Tamminen 2001) that draw from a density in R^d. Proposals are normal.
  * Their covariance is that of the draws times 2.38²/d and a factor, which adapts to the acceptance rate. With a cheap

@@ -53,7 +53,7 @@ static bool is_own_valid(const struct ceduo_uncertainty_def *def)
     const struct ceduo_results *own = def->own;
     size_t options = def->scene->options_count;
     bool good = !own || (def->brief && own->result && own->result->options_count == options);
-    bool years = own && def->rotation && def->scene->simulation.contact_model != CEDUO_INDEX;
+    bool years = own && def->rotation && def->scene->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX;
     if (good && years)
         good = own->years && own->years_count == options;
     for (size_t i = 0; good && years && i < options; i++)
@@ -63,7 +63,7 @@ static bool is_own_valid(const struct ceduo_uncertainty_def *def)
 
 enum ceduo_status ceduo_check_uncertainty_def(const struct ceduo_uncertainty_def *def)
 {
-    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
+    enum ceduo_status status = def->size == sizeof *def ? ceduo_scene_check(def->scene, NULL) : CEDUO_BAD_ARGUMENT;
     if (status != CEDUO_OK)
         return status;
     size_t options = def->scene->options_count;
@@ -107,7 +107,7 @@ static enum ceduo_status check_fitted_scene(const struct ceduo_calibration_scene
 enum ceduo_status ceduo_check_calibration_def(const struct ceduo_calibration_def *def)
 {
     enum ceduo_status status =
-        check_status(def->scenes && def->scenes_count > 0 && def->parameters_count > 0 &&
+        check_status(def->size == sizeof *def && def->scenes && def->scenes_count > 0 && def->parameters_count > 0 &&
                      def->parameters_count <= CEDUO_CALIBRATION_MAX && def->rocks > 0 && def->rocks <= CEDUO_ROCKS_MAX &&
                      def->threads <= CEDUO_THREADS_MAX && def->steps_max <= CEDUO_CALIBRATION_STEPS);
     for (size_t i = 0; status == CEDUO_OK && i < def->scenes_count; i++)
@@ -119,7 +119,8 @@ enum ceduo_status ceduo_check_calibration_def(const struct ceduo_calibration_def
 
 enum ceduo_status ceduo_check_find_def(const struct ceduo_find_def *def)
 {
-    return check_status(def->goal && isfinite(def->lo) && isfinite(def->hi) && isfinite(def->hi - def->lo));
+    return check_status(def->size == sizeof *def && def->goal && isfinite(def->lo) && isfinite(def->hi) &&
+                        isfinite(def->hi - def->lo));
 }
 
 enum ceduo_status ceduo_check_survey(const struct ceduo_survey *s)

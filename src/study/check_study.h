@@ -3,9 +3,7 @@
 #define CEDUO_CHECK_STUDY_H
 
 #include "ceduo/calibrate.h"
-#include "ceduo/find.h"
 #include "ceduo/survey.h"
-#include "ceduo/uncertainty.h"
 
 /* Checks of the definitions that callers of studies fill in, as core/runs/check.h. Return CEDUO_OK, CEDUO_BAD_ARGUMENT or
  * the status of ceduo_scene_check(). */

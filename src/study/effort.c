@@ -2,6 +2,7 @@
 /* Estimates the effort of an uncertainty analysis. Contacts and stems of a rock are estimated by a pilot: a few points of a few
  * rocks. All other parts follow from the scene. Their weights were measured. */
 #include "effort.h"
+#include "surface.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,6 @@
 #ifndef CEDUO_EFFORT_H
 #define CEDUO_EFFORT_H
 
-#include "ceduo/pool.h"
 #include "ceduo/uncertainty.h"
 
 /* Bounds the effort of the uncertainty of a page. The unit is one contact or stem, about 17 ns. The bound counts simulated

@@ -2,7 +2,6 @@
 /* Search for the value at which a goal crosses its target. Evaluates both ends; if they agree, some values between them, too.
  * Bisection then narrows the bracket around one crossing. All samples are kept, sorted: no value is evaluated twice, and they
  * show if the goal turns. */
-#include "ceduo/find.h"
 
 #include <float.h>
 #include <math.h>
@@ -87,7 +86,7 @@ static void find_crossing(struct search *h, struct ceduo_found *found)
         return;
     const struct sample *crossing = &h->samples[lo && hi && failing > 0 ? failing : first];
     struct sample pass = *crossing;
-    found->side = lo && !hi ? CEDUO_LARGEST : CEDUO_SMALLEST;
+    found->side = lo && !hi ? CEDUO_SIDE_LARGEST : CEDUO_SIDE_SMALLEST;
     found->whole_range = failing == 0;
     if (!found->whole_range)
         pass = bisect(h, pass, lo && !hi ? crossing[1] : crossing[-1]);
@@ -119,15 +118,17 @@ static void read_samples(const struct search *h, struct ceduo_found *found)
 
 struct ceduo_find_def ceduo_find_def_default(void)
 {
-    return (struct ceduo_find_def){.hi = 1};
+    return (struct ceduo_find_def){.size = sizeof(struct ceduo_find_def), .hi = 1};
 }
 
 enum ceduo_status ceduo_find(const struct ceduo_find_def *def, struct ceduo_found *found)
 {
     *found = (struct ceduo_found){.value = NAN, .goal_at_value = NAN, .monotone = true, .nearest = NAN, .goal_at_nearest = NAN};
+    enum ceduo_status status = ceduo_check_find_def(def);
+    if (status != CEDUO_OK)
+        return status;
     struct search h = {.def = def, .lo = def->whole ? ceil(def->lo) : def->lo, .hi = def->whole ? floor(def->hi) : def->hi};
-    h.status = ceduo_check_find_def(def);
-    if (h.lo <= h.hi && h.status == CEDUO_OK)
+    if (h.lo <= h.hi)
         find_crossing(&h, found);
     read_samples(&h, found);
     return h.status;

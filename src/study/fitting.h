@@ -5,8 +5,8 @@
 #include <pthread.h>
 
 #include "base/parallel.h"
-#include "ceduo/calibrate.h"
 #include "inputs.h"
+#include "observe.h"
 #include "surrogate.h"
 
 /* State of a calibration: calibrate.c fits, predict.c predicts the observations. */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "goal.h"
+#include "core/runs/run.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/assess.h"
 
 const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
     [CEDUO_GOAL_ADC] = {"adc", N_("ADC"), "m", true, false, "the ADC of the worst belt", "the threshold of the scene"},

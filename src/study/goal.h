@@ -3,9 +3,7 @@
 #define CEDUO_GOAL_H
 
 #include "base/text.h"
-#include "ceduo/find.h"
-#include "ceduo/surface.h"
-#include "ceduo/years.h"
+#include "ceduo/uncertainty.h"
 
 /* Goals of a search for one value of a scene, at the worst control. A goal has a name here, a row in goal.c, and its value in
  * ceduo_goal_reached(). */

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "inputs.h"
+#include "scene/derived.h"
+#include "scene/stand.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

@@ -32,4 +32,7 @@ bool ceduo_input_is_future(const struct ceduo_input *input);
  * per_ha is an input. The number of stools is limited to that of the shoots. */
 void ceduo_inputs_set(struct input_scene *copy, const double *u);
 
+/* Return the quantile u (0…1) of an input that is a range, normal or gamma. */
+double ceduo_input_quantile(const struct ceduo_input *input, double u);
+
 #endif

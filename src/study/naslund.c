@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fits Näslund's curve by nonlinear least squares of the heights. */
-#include "ceduo/naslund.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_multifit_nlinear.h>
@@ -8,6 +7,7 @@
 #include <math.h>
 
 #include "base/gsl_errors.h"
+#include "naslund.h"
 
 #define STEPS_MAX 200
 #define EXACT     1e-12

@@ -2,7 +2,6 @@
 /* Compares simulated rocks with observations. Observations with the same rock, release and option form a setting and share
  * its rocks. A setting is simulated by a run whose controls are the observed places, or rock by rock (record.c) if a run
  * does not keep the observed quantity. This yields one value per observation and rock; NaN: the rock has no value. */
-#include "ceduo/observe.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,9 +9,10 @@
 
 #include "base/arena.h"
 #include "base/parallel.h"
-#include "ceduo/record.h"
-#include "ceduo/run.h"
 #include "check_study.h"
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
+#include "observe.h"
 
 #define IMPOSSIBLE (-1e4) /* log-likelihood of an observation that no simulated rock reproduces */
 
@@ -205,10 +205,11 @@ static enum ceduo_status simulate_setting(const struct setting *s, const struct 
     if (s->option >= scene->options_count || rocks == 0 || rocks > CEDUO_ROCKS_MAX)
         return CEDUO_BAD_ARGUMENT;
     const struct ceduo_option *option = &f->scene.options[s->option];
-    bool bare = scene->simulation.contact_model == CEDUO_INDEX;
+    bool bare = scene->simulation.contact_model == CEDUO_CONTACT_MODEL_INDEX;
     enum ceduo_status status = ceduo_scene_check(&f->scene, NULL);
     if (status == CEDUO_OK && s->needs_record) {
-        struct ceduo_record_def def = {.scene = &f->scene,
+        struct ceduo_record_def def = {.size = sizeof def,
+                                       .scene = &f->scene,
                                        .option = bare ? NULL : option,
                                        .rocks = rocks,
                                        .stretches_count = s->stretches_count,

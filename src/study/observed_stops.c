@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "observed_stops.h"
+#include "core/runs/statistics.h"
 
 #include <math.h>
-
-#include "ceduo/statistics.h"
 
 /* Return the number of n sorted values above x. */
 static size_t count_above(const double *values, size_t n, double x)

@@ -2,7 +2,7 @@
 #ifndef CEDUO_OBSERVED_STOPS_H
 #define CEDUO_OBSERVED_STOPS_H
 
-#include "ceduo/observe.h"
+#include "ceduo/calibrate.h"
 
 /* Observed and simulated stops: at places along the slope the share of the rocks that stop farther, as observed, and the
  * central 95 % of samples of the observed size from the simulated rocks. */

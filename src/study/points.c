@@ -2,13 +2,14 @@
 /* Threads take items, each with its own copy of the scene, and write only to the rows of the item. So the result does not
  * depend on the number of threads, bit for bit. An item is a list of variants; equal variants are simulated once. */
 #include "points.h"
+#include "core/runs/variants.h"
+#include "core/runs/year_runs.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "ceduo/variants.h"
 #include "inputs.h"
 
 struct work {

@@ -4,9 +4,8 @@
 
 #include <stdatomic.h>
 
-#include "ceduo/run.h"
 #include "ceduo/uncertainty.h"
-#include "ceduo/years.h"
+#include "core/runs/run.h"
 
 /* Simulates plausible scenes. Each row of input quantiles is a scene; its options are simulated today and year by year. The
  * result does not depend on the number of threads. */

@@ -10,9 +10,10 @@
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "ceduo/statistics.h"
 #include "check_study.h"
+#include "core/runs/statistics.h"
 #include "fitting.h"
+#include "predict.h"
 #include "sequence.h"
 
 #define SAMPLES     20   /* per draw, at most CEDUO_SAMPLE_VALUES */
@@ -185,8 +186,8 @@ static void predict_all(struct fitting *f, size_t draws, gsl_rng *random, double
             predict_one(&drawn, o, random, values, to);
             predict_single(&drawn, o, values, to);
             bool misfit = to->p_value < CEDUO_MISFIT;
-            a->misfit |= misfit && o->use == CEDUO_OBSERVED_FIT;
-            a->check_failed |= misfit && o->use == CEDUO_OBSERVED_CHECK;
+            a->misfit |= misfit && o->use == CEDUO_OBSERVED_USE_FIT;
+            a->check_failed |= misfit && o->use == CEDUO_OBSERVED_USE_CHECK;
         }
 }
 

@@ -3,13 +3,15 @@
  * is that of its worst control. Over a rotation shares of rocks are means over the years; other goals are those of the worst
  * year. */
 #include "reliability.h"
+#include "core/runs/assess.h"
+#include "core/runs/statistics.h"
+#include "surface.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/gsl_errors.h"
-#include "ceduo/assess.h"
 #include "points.h"
 
 #define GROUPS CEDUO_SURFACE_GROUPS
@@ -43,7 +45,7 @@ static struct ceduo_replicates compute_energy(const struct point *point, const s
         energy += means[g].energy_per_released / GROUPS;
     }
     double mean = energy / reach, residual = mean; /* NaN: no rock arrives */
-    if (point->scene->simulation.contact_model == CEDUO_INDEX)
+    if (point->scene->simulation.contact_model == CEDUO_CONTACT_MODEL_INDEX)
         residual = ceduo_assess_index(point->scene, point->forest, control, mean).residual;
     for (size_t g = 0; g < GROUPS && residual > 0; g++)
         y.value[g] = (residual + (means[g].energy_per_released - mean * means[g].reach_probability) / reach) * 1e-3;

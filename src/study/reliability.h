@@ -2,7 +2,6 @@
 #ifndef CEDUO_RELIABILITY_H
 #define CEDUO_RELIABILITY_H
 
-#include "ceduo/uncertainty.h"
 #include "goal.h"
 
 /* Probability that an option reaches a goal under uncertain inputs. */

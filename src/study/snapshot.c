@@ -2,6 +2,10 @@
 /* Copies results of runs for pictures. The snapshot of a run holds arrivals, envelopes, some energies and some trajectories.
  * It is reference-counted: a snapshot shares unchanged runs with the last one. */
 #include "snapshot.h"
+#include "core/runs/key.h"
+#include "core/runs/result.h"
+#include "core/runs/run.h"
+#include "scene/derived.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +13,6 @@
 
 #include "base/arena.h"
 #include "base/parallel.h"
-#include "ceduo/key.h"
 
 /* ---- trajectories ---- */
 
@@ -106,7 +109,7 @@ static void release_run_snapshot(struct ceduo_run_snapshot *s)
 {
     if (!s || atomic_fetch_sub(&s->references, 1) != 1)
         return;
-    ceduo_simulated_free(&s->simulated);
+    ceduo_simulated_release(&s->simulated);
     ceduo_arena_free(&s->memory);
     free(s);
 }
@@ -229,7 +232,7 @@ enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, st
         o->options = scene->options_count;
         status = reference_run_snapshot(def, o, NULL, &o->bare);
     }
-    bool flies = scene->simulation.contact_model != CEDUO_INDEX;
+    bool flies = scene->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX;
     for (size_t i = 0; flies && i < o->options && status == CEDUO_OK; i++) {
         const struct ceduo_run *run = find_run(def, &scene->options[i]), *first = find_run(def, &scene->options[0]);
         status = reference_run_snapshot(def, o, &scene->options[i], &o->wooded[i]);
@@ -257,7 +260,7 @@ void ceduo_snapshot_free(struct ceduo_snapshot *o)
 const struct ceduo_run_snapshot *ceduo_snapshot_find(const struct ceduo_snapshot *o, const struct ceduo_scene *scene,
                                                      size_t option)
 {
-    if (!o || scene->simulation.contact_model == CEDUO_INDEX)
+    if (!o || scene->simulation.contact_model == CEDUO_CONTACT_MODEL_INDEX)
         return o ? o->bare : NULL;
     if (option >= scene->options_count)
         return NULL;

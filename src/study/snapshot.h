@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "base/arena.h"
-#include "ceduo/result.h"
+#include "ceduo/simulate.h"
 #include "core/walk/envelope.h"
 
 /* Results of runs for pictures. A snapshot never changes, so that one thread may create it and another draw it. x and z are

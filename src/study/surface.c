@@ -8,7 +8,6 @@
  * estimates is not biased by sampling noise. The residual of the terms is common to all groups; its contribution to a
  * squared coefficient is subtracted. Errors have two parts. The sampling error of the rocks is a jackknife over groups; more
  * points do not reduce it. The residuals of the terms give a wild bootstrap (Wu 1986). */
-#include "ceduo/surface.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
@@ -23,10 +22,10 @@
 #include "base/arena.h"
 #include "base/gsl_errors.h"
 #include "base/random.h"
-#include "ceduo/statistics.h"
-#include "ceduo/uncertainty.h"
 #include "check_study.h"
+#include "core/runs/statistics.h"
 #include "points.h"
+#include "surface.h"
 
 #define GROUPS          CEDUO_SURFACE_GROUPS
 #define COORDINATES     40         /* dimensions of GSL's Sobol' points */

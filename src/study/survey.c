@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Computes a stand from sample plots. Counts become densities per plot; their mean has a standard error over the plots. */
-#include "ceduo/survey.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
@@ -11,6 +10,10 @@
 #include "base/arena.h"
 #include "base/gsl_errors.h"
 #include "check_study.h"
+#include "naslund.h"
+#include "plots.h"
+#include "scene/stand.h"
+#include "scene/volume.h"
 
 #define HECTARE     10000
 #define CLASSES_MAX 1000 /* classes of dbh; thicker stems share the last */
@@ -143,25 +146,25 @@ static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_surve
     if (shoots)
         s->shoots_fitted = fitted == CEDUO_OK;
     if (h->missing == 0)
-        h->from = CEDUO_HEIGHTS_MEASURED;
+        h->from = CEDUO_SURVEY_HEIGHTS_MEASURED;
     else if (h->given > 0)
-        h->from = fitted == CEDUO_OK ? CEDUO_HEIGHTS_CURVE : CEDUO_HEIGHTS_MEAN;
+        h->from = fitted == CEDUO_OK ? CEDUO_SURVEY_HEIGHTS_CURVE : CEDUO_SURVEY_HEIGHTS_MEAN;
     else
-        h->from = !shoots && s->shoots_fitted ? CEDUO_HEIGHTS_SHOOTS : CEDUO_HEIGHTS_USUAL;
-    if (h->from == CEDUO_HEIGHTS_SHOOTS)
+        h->from = !shoots && s->shoots_fitted ? CEDUO_SURVEY_HEIGHTS_SHOOTS : CEDUO_SURVEY_HEIGHTS_USUAL;
+    if (h->from == CEDUO_SURVEY_HEIGHTS_SHOOTS)
         h->curve = s->answer->shoots.curve;
-    else if (h->from == CEDUO_HEIGHTS_USUAL)
+    else if (h->from == CEDUO_SURVEY_HEIGHTS_USUAL)
         h->curve = shoots ? default_shoots : default_trees;
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
         if (!is_of_group(stem, shoots))
             continue;
-        if (!isnan(stem->height) || h->from == CEDUO_HEIGHTS_MEAN) {
+        if (!isnan(stem->height) || h->from == CEDUO_SURVEY_HEIGHTS_MEAN) {
             s->heights[i] = isnan(stem->height) ? h->mean : stem->height;
             continue;
         }
         s->heights[i] = ceduo_naslund_height(&h->curve, stem->dbh);
-        h->beyond += h->from != CEDUO_HEIGHTS_USUAL && stem->dbh > s->measured;
+        h->beyond += h->from != CEDUO_SURVEY_HEIGHTS_USUAL && stem->dbh > s->measured;
         h->thickest = fmax(h->thickest, stem->dbh);
     }
     return fitted != CEDUO_NO_MEMORY;
@@ -269,11 +272,11 @@ enum ceduo_status ceduo_survey_compute(const struct ceduo_survey *survey, struct
            make_classes(&s);
     ceduo_arena_free(&s.memory);
     if (!good)
-        ceduo_survey_free(a);
+        ceduo_survey_release(a);
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
-void ceduo_survey_free(struct ceduo_survey_result *answer)
+void ceduo_survey_release(struct ceduo_survey_result *answer)
 {
     free(answer->classes);
     *answer = (struct ceduo_survey_result){0};

@@ -3,7 +3,6 @@
  * (points.c), also with each input at the ends of its range. A surface through each figure yields the shares of the inputs
  * (surface.c). Over a rotation each year has its own surface, whose values are free of sampling noise; they decide which
  * years fail. */
-#include "ceduo/uncertainty.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,11 +11,15 @@
 #include "base/arena.h"
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
-#include "ceduo/assess.h"
-#include "ceduo/request.h"
 #include "check_study.h"
+#include "core/runs/assess.h"
+#include "core/runs/result.h"
+#include "core/runs/statistics.h"
+#include "dominant_inputs.h"
 #include "inputs.h"
 #include "points.h"
+#include "scene/derived.h"
+#include "surface.h"
 
 #define GROUPS CEDUO_SURFACE_GROUPS
 #define SECOND 0.5 /* a second input is dominant, too, if its share is at least this part of the first one's */
@@ -530,22 +533,25 @@ static enum ceduo_status open_answer(struct rows *r)
 
 struct ceduo_uncertainty_def ceduo_uncertainty_def_default(const struct ceduo_scene *scene)
 {
-    return (struct ceduo_uncertainty_def){
-        .scene = scene, .points = CEDUO_UNCERTAINTY_POINTS, .rocks = CEDUO_UNCERTAINTY_ROCKS, .threads = 1};
+    return (struct ceduo_uncertainty_def){.size = sizeof(struct ceduo_uncertainty_def),
+                                          .scene = scene,
+                                          .points = CEDUO_UNCERTAINTY_POINTS,
+                                          .rocks = CEDUO_UNCERTAINTY_ROCKS,
+                                          .threads = 1};
 }
 
 enum ceduo_status ceduo_uncertainty_compute(const struct ceduo_uncertainty_def *def, struct ceduo_uncertainty_result *answer)
 {
     GSL_RETURNS_ERRORS;
     struct rows rows;
-    struct ceduo_uncertainty_def checked = *def;
     *answer = (struct ceduo_uncertainty_result){0};
     enum ceduo_status status = ceduo_check_uncertainty_def(def);
     if (status != CEDUO_OK)
         return status;
+    struct ceduo_uncertainty_def checked = *def;
     checked.threads = def->threads > 0 ? def->threads : 1;
     checked.rocks = def->rocks > GROUPS ? def->rocks : GROUPS;
-    checked.rotation = def->rotation && def->scene->simulation.contact_model != CEDUO_INDEX;
+    checked.rotation = def->rotation && def->scene->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX;
     status = open_rows(&rows, &checked, answer);
     if (status == CEDUO_OK)
         status = open_answer(&rows);
@@ -568,11 +574,11 @@ enum ceduo_status ceduo_uncertainty_compute(const struct ceduo_uncertainty_def *
     answer->evaluations = rows.ends + rows.points;
     ceduo_arena_free(&rows.memory);
     if (status != CEDUO_OK)
-        ceduo_uncertainty_free(answer);
+        ceduo_uncertainty_release(answer);
     return status;
 }
 
-void ceduo_uncertainty_free(struct ceduo_uncertainty_result *answer)
+void ceduo_uncertainty_release(struct ceduo_uncertainty_result *answer)
 {
     for (size_t i = 0; i < answer->figures_count; i++)
         ceduo_surface_release(&answer->figures[i].fit);

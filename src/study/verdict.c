@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict.h"
+#include "core/runs/assess.h"
+#include "core/runs/hazard.h"
+#include "core/runs/key.h"
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
+#include "core/runs/year_runs.h"
+#include "core/stand/rotation.h"
+#include "scene/derived.h"
 
 #include <math.h>
-
-#include "ceduo/key.h"
-#include "ceduo/uncertainty.h"
 
 /* The interval depends on weights if the rocks have weights. */
 struct ceduo_mean_share ceduo_share_of(const struct ceduo_arrivals *a, struct ceduo_estimate share)
@@ -251,23 +256,23 @@ static enum ceduo_judgement judge_today(const struct ceduo_result *r, const stru
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
     enum ceduo_judgement judgement = ceduo_judge_control(bare, wooded);
-    if (judgement == CEDUO_CANNOT_JUDGE || judgement == CEDUO_UNANSWERED || !wooded || !uncertainty ||
+    if (judgement == CEDUO_JUDGEMENT_CANNOT_JUDGE || judgement == CEDUO_JUDGEMENT_UNANSWERED || !wooded || !uncertainty ||
         control != r->last_control)
         return judgement;
     const struct ceduo_surface_fit *fit =
         &ceduo_uncertainty_find_figure(uncertainty, option, CEDUO_UNCERTAINTY_EXCEED, false)->fit;
     double share = wooded->exceed.mean; /* the range includes it */
-    return fmin(fit->p5, share) <= wooded->limit && fmax(fit->p95, share) > wooded->limit ? CEDUO_DEPENDS : judgement;
+    return fmin(fit->p5, share) <= wooded->limit && fmax(fit->p95, share) > wooded->limit ? CEDUO_JUDGEMENT_DEPENDS : judgement;
 }
 
 /* Judge the years by the number of years above the limit. */
 static enum ceduo_judgement judge_years(const struct ceduo_years_summary *s, const struct ceduo_outcome *o)
 {
     if (o->uncertain && o->failing_lo < 1 && o->failing_hi >= 1)
-        return CEDUO_DEPENDS;
+        return CEDUO_JUDGEMENT_DEPENDS;
     bool none = s->failing_hi == 0 && o->failing_hi < 1;
     bool some = s->failing_lo > 0 && o->failing_lo >= 1;
-    return none ? CEDUO_YES : some ? CEDUO_NO : CEDUO_NOT_DECIDED;
+    return none ? CEDUO_JUDGEMENT_YES : some ? CEDUO_JUDGEMENT_NO : CEDUO_JUDGEMENT_NOT_DECIDED;
 }
 
 /* Judge by the rate: the mean over the years, or today's. */
@@ -281,9 +286,9 @@ static enum ceduo_judgement judge_rate(const struct ceduo_result *r, const struc
         o->rate.lo = fmin(o->rate.lo, per_year * fit->p5);
         o->rate.hi = fmax(o->rate.hi, per_year * fit->p95);
         if (per_year * fit->p5 <= limit && per_year * fit->p95 > limit)
-            return CEDUO_DEPENDS;
+            return CEDUO_JUDGEMENT_DEPENDS;
     }
-    return o->rate.hi <= limit ? CEDUO_YES : o->rate.lo > limit ? CEDUO_NO : CEDUO_NOT_DECIDED;
+    return o->rate.hi <= limit ? CEDUO_JUDGEMENT_YES : o->rate.lo > limit ? CEDUO_JUDGEMENT_NO : CEDUO_JUDGEMENT_NOT_DECIDED;
 }
 
 static bool has_impossible_stand(const struct ceduo_result *r, size_t option, size_t control)
@@ -291,7 +296,7 @@ static bool has_impossible_stand(const struct ceduo_result *r, size_t option, si
     bool impossible = false;
     for (size_t i = 0; i < r->scene->options[option].belts_count; i++)
         if (r->scene->options[option].belts[i].from < r->scene->controls[control].x)
-            impossible |= (r->options[option].stands[i].warnings & (CEDUO_WARN_BASAL_AREA | CEDUO_WARN_MANY_SHOOTS)) != 0;
+            impossible |= (r->options[option].stands[i].warnings & (CEDUO_WARNING_BASAL_AREA | CEDUO_WARNING_MANY_SHOOTS)) != 0;
     return impossible;
 }
 
@@ -306,10 +311,10 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
     struct ceduo_outcome o = {.answer = today,
                               .today = today,
                               .over_years = s && s->simulated > 0 && c->window.kind != CEDUO_WINDOW_CONSTANT,
-                              .also_bare = ceduo_judge_control(&r->bare.arrivals[control], NULL) == CEDUO_YES,
+                              .also_bare = ceduo_judge_control(&r->bare.arrivals[control], NULL) == CEDUO_JUDGEMENT_YES,
                               .rate = CEDUO_NO_ESTIMATE};
     bool years = last && uncertainty && uncertainty->rotation;
-    if (today == CEDUO_UNANSWERED || today == CEDUO_CANNOT_JUDGE)
+    if (today == CEDUO_JUDGEMENT_UNANSWERED || today == CEDUO_JUDGEMENT_CANNOT_JUDGE)
         return o;
     if (o.over_years) {
         const struct ceduo_surface_fit *fit =
@@ -329,9 +334,9 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
                                   : NULL,
                               control, &o);
     }
-    o.impossible = o.answer == CEDUO_YES && has_impossible_stand(r, option, control);
-    o.answer = o.impossible ? CEDUO_CANNOT_JUDGE : o.answer;
-    o.today = o.impossible && !o.over_years ? CEDUO_CANNOT_JUDGE : today;
+    o.impossible = o.answer == CEDUO_JUDGEMENT_YES && has_impossible_stand(r, option, control);
+    o.answer = o.impossible ? CEDUO_JUDGEMENT_CANNOT_JUDGE : o.answer;
+    o.today = o.impossible && !o.over_years ? CEDUO_JUDGEMENT_CANNOT_JUDGE : today;
     return o;
 }
 
@@ -341,7 +346,8 @@ struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *r, const s
 static bool hardly_moves(const struct ceduo_result *r)
 {
     const struct ceduo_ends *ends = &r->bare.ends;
-    return ends->count[CEDUO_AT_REST] == r->bare.rocks && ends->stop_max - ceduo_scene_release_last(r->scene) < CEDUO_MOVES_MIN;
+    return ends->count[CEDUO_END_AT_REST] == r->bare.rocks &&
+           ends->stop_max - ceduo_scene_release_last(r->scene) < CEDUO_MOVES_MIN;
 }
 
 enum ceduo_class ceduo_outcome_classify(const struct ceduo_result *r, const struct ceduo_outcome *o, size_t control,
@@ -353,17 +359,17 @@ enum ceduo_class ceduo_outcome_classify(const struct ceduo_result *r, const stru
         enum ceduo_class class;
         const char *why;
     } classes[] = {
-        {o->answer == CEDUO_UNANSWERED, CEDUO_CLASS_NOT_JUDGED, NULL},
+        {o->answer == CEDUO_JUDGEMENT_UNANSWERED, CEDUO_CLASS_NOT_JUDGED, NULL},
         {o->impossible, CEDUO_CLASS_OPEN, "impossible-stand"},
-        {o->answer == CEDUO_CANNOT_JUDGE && hardly_moves(r), CEDUO_CLASS_NOT_JUDGED, "no-rock-moves"},
-        {o->answer == CEDUO_CANNOT_JUDGE && ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS, CEDUO_CLASS_OPEN,
+        {o->answer == CEDUO_JUDGEMENT_CANNOT_JUDGE && hardly_moves(r), CEDUO_CLASS_NOT_JUDGED, "no-rock-moves"},
+        {o->answer == CEDUO_JUDGEMENT_CANNOT_JUDGE && ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS, CEDUO_CLASS_OPEN,
          "contradicts-terrain"},
-        {o->answer == CEDUO_CANNOT_JUDGE, CEDUO_CLASS_NOT_REACHED, "not-reached"},
-        {o->answer == CEDUO_NOT_DECIDED, CEDUO_CLASS_OPEN, "sampling-error"},
-        {o->answer == CEDUO_DEPENDS, CEDUO_CLASS_OPEN, "uncertain-inputs"},
-        {o->answer == CEDUO_NO && o->today == CEDUO_YES, CEDUO_CLASS_NO, "exceeds-later"},
-        {o->answer == CEDUO_NO, CEDUO_CLASS_NO, "exceeds"},
-        {ceduo_judge_control(bare, NULL) == CEDUO_YES, CEDUO_CLASS_WITHOUT_FOREST, "without-forest"},
+        {o->answer == CEDUO_JUDGEMENT_CANNOT_JUDGE, CEDUO_CLASS_NOT_REACHED, "not-reached"},
+        {o->answer == CEDUO_JUDGEMENT_NOT_DECIDED, CEDUO_CLASS_OPEN, "sampling-error"},
+        {o->answer == CEDUO_JUDGEMENT_DEPENDS, CEDUO_CLASS_OPEN, "uncertain-inputs"},
+        {o->answer == CEDUO_JUDGEMENT_NO && o->today == CEDUO_JUDGEMENT_YES, CEDUO_CLASS_NO, "exceeds-later"},
+        {o->answer == CEDUO_JUDGEMENT_NO, CEDUO_CLASS_NO, "exceeds"},
+        {ceduo_judge_control(bare, NULL) == CEDUO_JUDGEMENT_YES, CEDUO_CLASS_WITHOUT_FOREST, "without-forest"},
         {true, CEDUO_CLASS_FOREST, "forest"},
     };
     size_t i = 0;

@@ -3,8 +3,8 @@
 #define CEDUO_VERDICT_H
 
 #include "base/arena.h"
-#include "ceduo/request.h"
-#include "ceduo/yield.h"
+#include "ceduo/uncertainty.h"
+#include "core/runs/fence.h"
 
 /* Comparison of the options at the last control: today, over the same future years, and their yield. The judged share is the
  * share of released rocks that arrive with too much energy; without an accepted energy the share that arrives. All options have
@@ -85,7 +85,7 @@ struct ceduo_outcome {
     enum ceduo_judgement today;
     bool over_years; /* the window has years that differ from today, and they are known */
     bool also_bare;  /* today the limit is met without forest, too */
-    bool impossible; /* a stand is impossibly dense: CEDUO_YES is not allowed */
+    bool impossible; /* a stand is impossibly dense: CEDUO_JUDGEMENT_YES is not allowed */
     /* years above the limit, with the 90 % range over uncertain inputs, otherwise the sampling interval */
     double failing, failing_lo, failing_hi;
     bool uncertain;             /* the range is over uncertain inputs */
@@ -94,10 +94,10 @@ struct ceduo_outcome {
 
 /* Judge an option at a control. `verdict` may be NULL (today only), and `uncertainty`, too (sampling error only).
  *
- * Over the window: CEDUO_YES if no year is above the limit and the upper end of the range is 0. CEDUO_NO if the lower end is
- * at least 1. Otherwise CEDUO_DEPENDS if uncertain inputs leave it open, CEDUO_NOT_DECIDED if only sampling error does. With
- * blocks the mean rate over the window is compared with the accepted return period: yes if its upper end is below the limit,
- * no if its lower end is above. */
+ * Over the window: CEDUO_JUDGEMENT_YES if no year is above the limit and the upper end of the range is 0. CEDUO_JUDGEMENT_NO if
+ * the lower end is at least 1. Otherwise CEDUO_JUDGEMENT_DEPENDS if uncertain inputs leave it open, CEDUO_JUDGEMENT_NOT_DECIDED
+ * if only sampling error does. With blocks the mean rate over the window is compared with the accepted return period: yes if
+ * its upper end is below the limit, no if its lower end is above. */
 struct ceduo_uncertainty_result;
 struct ceduo_outcome ceduo_outcome_compute(const struct ceduo_result *result, const struct ceduo_verdict *verdict,
                                            const struct ceduo_uncertainty_result *uncertainty, size_t option, size_t control);
@@ -107,8 +107,8 @@ void ceduo_verdict_add_years(struct ceduo_request *request);
 /* Class of a judgement, for maps: the larger, the worse; the last one is not judged. */
 enum ceduo_class {
     CEDUO_CLASS_NOT_REACHED,    /* hardly a rock arrives even without forest */
-    CEDUO_CLASS_WITHOUT_FOREST, /* CEDUO_YES, today also without forest */
-    CEDUO_CLASS_FOREST,         /* CEDUO_YES */
+    CEDUO_CLASS_WITHOUT_FOREST, /* CEDUO_JUDGEMENT_YES, today also without forest */
+    CEDUO_CLASS_FOREST,         /* CEDUO_JUDGEMENT_YES */
     CEDUO_CLASS_OPEN,
     CEDUO_CLASS_NO,
     CEDUO_CLASS_NOT_JUDGED /* no rock moves, or the scene cannot be computed */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app.h"
+#include "scene/derived.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,8 +5,9 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/slope.h"
 #include "popup.h"
+#include "scene/material.h"
+#include "scene/slope.h"
 #include "view/value_text.h"
 
 static bool set_cell_value(struct app *app, const struct form_cell *cell, const char *value)

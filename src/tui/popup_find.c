@@ -5,6 +5,7 @@
 
 #include "base/language.h"
 #include "popup.h"
+#include "scene/regulation.h"
 #include "view/value_text.h"
 
 enum { FIND_GOAL, FIND_TARGET, FIND_SURE, FIND_LO, FIND_HI };

@@ -6,9 +6,11 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
+#include "core/runs/assess.h"
 #include "io/file.h"
 #include "popup.h"
 #include "scene/choices.h"
+#include "scene/material.h"
 #include "view/value_text.h"
 #include "view/words.h"
 

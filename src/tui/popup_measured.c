@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "core/stand/rotation.h"
 #include "io/file.h"
 #include "io/survey_file.h"
 #include "popup.h"
@@ -80,7 +81,7 @@ static bool submit_counts(struct app *app, struct popup *p)
         else
             ceduo_changes_add(c, CHANGE_DELETE, list, NULL);
     }
-    if (current->system == CEDUO_BARE)
+    if (current->system == CEDUO_SYSTEM_BARE)
         ceduo_changes_add(c, CHANGE_DELETE, ceduo_app_format(app, "%s.system", p->target), NULL);
     ceduo_changes_set(c, ceduo_app_format(app, "%s.name", p->target), "%s", ceduo_app_scalar(app, _("sample plot")));
     bool good = ceduo_app_finish_edit(app, ceduo_changes_apply(c, _("counts of a plot")));

@@ -5,11 +5,12 @@
 
 #include "base/language.h"
 #include "base/oom.h"
-#include "ceduo/slope.h"
 #include "io/csv.h"
 #include "io/file.h"
 #include "popup.h"
 #include "scene/choices.h"
+#include "scene/material.h"
+#include "scene/slope.h"
 #include "view/plot.h"
 #include "view/value_text.h"
 

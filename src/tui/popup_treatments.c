@@ -4,9 +4,10 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/rotation.h"
+#include "core/stand/rotation.h"
 #include "io/file.h"
 #include "popup.h"
+#include "scene/stand.h"
 
 #define FIRST_YEAR   1  /* year 0 is the stand as filed */
 #define KEPT_USUALLY 60 /* standards per ha, proposed if the stands do not specify how many are retained */
@@ -151,7 +152,7 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
         return;
     }
     if (!grows || borrows)
-        find_lender(p->app, s->species, selection ? CEDUO_SELECTION_COPPICE : s->system, &l);
+        find_lender(p->app, s->species, selection ? CEDUO_SYSTEM_SELECTION_COPPICE : s->system, &l);
     if (l.fit == 0 && (!grows || borrows)) { /* the shipped stands are missing */
         leave_belt(p, i, ceduo_app_format(p->app, _("no shipped stand has growth and cutting for '%s'"), belt->name));
         return;
@@ -166,7 +167,7 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
     if (selection && grows && s->growth.shoots_old < lent_belt(&l)->stand.growth.shoots_old)
         ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.growth.shoots_old", stand), "%g",
                           lent_belt(&l)->stand.growth.shoots_old);
-    if (selection && s->system != CEDUO_SELECTION_COPPICE) {
+    if (selection && s->system != CEDUO_SYSTEM_SELECTION_COPPICE) {
         const char *name = ceduo_app_format(p->app, _("%s, as selection coppice"), belt->name);
         ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.system", stand), "selection-coppice");
         ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.name", stand), "%s", ceduo_app_scalar(p->app, name));

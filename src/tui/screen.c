@@ -92,7 +92,7 @@ static bool draw_title(struct app *app)
 /* True if the answer depends on its uncertainty. */
 static bool is_open(enum ceduo_judgement judgement)
 {
-    return judgement != CEDUO_CANNOT_JUDGE && judgement != CEDUO_UNANSWERED;
+    return judgement != CEDUO_JUDGEMENT_CANNOT_JUDGE && judgement != CEDUO_JUDGEMENT_UNANSWERED;
 }
 
 /* Return what is being computed, for the end of the answer's line, the only place that shows it: the uncertainty, or finer
@@ -119,10 +119,10 @@ static void draw_verdict(struct app *app)
         is_open(judgement) && !isnan(ceduo_live_uncertainty_progress(&app->live, &app->document.file, app->option));
     ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE - ceduo_utf8_width(progress));
     ceduo_canvas_draw_text(&app->cells->canvas, 1, 1, app->width - 1,
-                           judgement == CEDUO_UNANSWERED ? CEDUO_ROLE_TITLE
-                           : judgement == CEDUO_YES      ? CEDUO_ROLE_GOOD
-                           : judgement == CEDUO_NO       ? CEDUO_ROLE_BAD
-                                                         : CEDUO_ROLE_WARN,
+                           judgement == CEDUO_JUDGEMENT_UNANSWERED ? CEDUO_ROLE_TITLE
+                           : judgement == CEDUO_JUDGEMENT_YES      ? CEDUO_ROLE_GOOD
+                           : judgement == CEDUO_JUDGEMENT_NO       ? CEDUO_ROLE_BAD
+                                                                   : CEDUO_ROLE_WARN,
                            answer.bytes);
     ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 1, CEDUO_ROLE_DIM, progress);
 }

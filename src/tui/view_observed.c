@@ -6,6 +6,7 @@
 #include "app.h"
 #include "base/language.h"
 #include "popup.h"
+#include "study/observe.h"
 #include "view/page_parts.h"
 #include "view/report.h"
 #include "view/value_text.h"
@@ -36,7 +37,7 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
         const char *unit = ceduo_observed_quantity(o->kind)->unit;
         struct text *name = ceduo_page_text(page);
         ceduo_text_append_escaped(name, o->name);
-        if (o->use == CEDUO_OBSERVED_CHECK)
+        if (o->use == CEDUO_OBSERVED_USE_CHECK)
             ceduo_text_format(name, " %s", _("(check)"));
         struct text *observed = ceduo_page_text(page);
         append_number(observed, file, p, p->observed);
@@ -110,7 +111,7 @@ static void append_progress(const struct live *live, struct ceduo_page *page)
     ceduo_page_note(page, _("Fitting. Esc cancels and discards the fit."));
     if (!s || s->evaluations == 0)
         return;
-    if (s->stage == CEDUO_CHAINS && isfinite(s->rhat))
+    if (s->stage == CEDUO_CALIBRATION_STAGE_CHAINS && isfinite(s->rhat))
         ceduo_page_para(page, CEDUO_PAGE_NOTE,
                         _("%llu scenes; R-hat %.3f (target: at most 1.05), effective size %.0f (target: 200)."),
                         (unsigned long long)s->evaluations, s->rhat, s->effective_size);

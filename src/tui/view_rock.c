@@ -19,10 +19,10 @@ static void build_blocks(struct form *form, const struct node *blocks)
 
 static void build_rock(struct app *app, struct form *form)
 {
-    static const char *const sizes[] = {[CEDUO_SPHERE] = "shape diameter_m volume_m3",
-                                        [CEDUO_CYLINDER] = "shape diameter_m height_m",
-                                        [CEDUO_ELLIPSOID] = "shape axes_m",
-                                        [CEDUO_BLOCK] = "shape axes_m"};
+    static const char *const sizes[] = {[CEDUO_SHAPE_SPHERE] = "shape diameter_m volume_m3",
+                                        [CEDUO_SHAPE_CYLINDER] = "shape diameter_m height_m",
+                                        [CEDUO_SHAPE_ELLIPSOID] = "shape axes_m",
+                                        [CEDUO_SHAPE_BLOCK] = "shape axes_m"};
     const struct node *blocks = ceduo_document_node(&app->document, "blocks");
     ceduo_form_heading(form, blocks ? _("Rock: shape and density; sizes come from the blocks") : _("Rock"));
     ceduo_form_fields(form, "rock.", sizes[app->document.file.scene.rock.shape]);

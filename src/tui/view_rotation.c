@@ -4,6 +4,7 @@
 
 #include "app.h"
 #include "base/language.h"
+#include "scene/stand.h"
 
 static void build_rotation(struct app *app, struct form *form)
 {

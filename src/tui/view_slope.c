@@ -6,6 +6,7 @@
 
 #include "base/language.h"
 #include "popup.h"
+#include "scene/slope.h"
 #include "view/plot.h"
 
 /* ---- the form ---- */
@@ -412,7 +413,7 @@ static void draw_slope(struct app *app, struct ceduo_area area)
     else if (picture_only)
         ceduo_app_show_hint(app, _("left, right: another rock; down, up: along its trajectory; Tab: along the slope"));
     struct ceduo_area slope = cut_top(&area, layout.slope);
-    if (layout.form.top == whole.top && scene->simulation.contact_model == CEDUO_INDEX)
+    if (layout.form.top == whole.top && scene->simulation.contact_model == CEDUO_CONTACT_MODEL_INDEX)
         slope.width -= SHORT_NAMES;
     ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, slope, &picture);
     picture.no_x_axis = true;

@@ -6,7 +6,9 @@
 
 #include "app.h"
 #include "base/language.h"
+#include "core/runs/assess.h"
 #include "scene/choices.h"
+#include "scene/stand.h"
 #include "view/words.h"
 
 #define FIGURES 3 /* lines */

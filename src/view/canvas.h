@@ -112,8 +112,8 @@ void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *fr
 /* Draw a bar of `fraction` (0..1, clamped) of `width` cells. <= 0 or NaN: nothing; > 0: always visible. */
 void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int width, double fraction, enum ceduo_role role);
 
-/* Cloud of trajectories: start it, draw trajectories with CEDUO_STROKE_TRAJECTORY, show it. Shows dots passed at least as often as
- * the given quantile (0..1) of all passed dots. 0: all dots; 0.9: the top tenth; 1: the maximum. */
+/* Cloud of trajectories: start it, draw trajectories with CEDUO_STROKE_TRAJECTORY, show it. Shows dots passed at least as often
+ * as the given quantile (0..1) of all passed dots. 0: all dots; 0.9: the top tenth; 1: the maximum. */
 void ceduo_canvas_cloud_start(struct ceduo_canvas *canvas);
 void ceduo_canvas_cloud_show(struct ceduo_canvas *canvas, double quantile);
 

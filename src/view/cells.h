@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "base/text.h"
+#include "study/surface.h"
 
 /* Meaning of a mark; the surface chooses its colour. BLANK draws nothing. Each line: name, letter in dumps, rank. The
  * highest rank in a cell wins: thin marks win over filling marks. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Write tables of figures as JSON and CSV. Sentences are English in every language. */
 #include "figures.h"
+#include "core/runs/statistics.h"
 
 #include <inttypes.h>
 #include <math.h>

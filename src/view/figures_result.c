@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures of a result, of its years and of a search. */
+#include "core/runs/result.h"
+#include "core/runs/statistics.h"
+#include "core/runs/year_runs.h"
 #include "figures_parts.h"
+#include "scene/derived.h"
 
-#include "ceduo/status.h"
 #include "scene/choices.h"
 
 /* ---- values ---- */
@@ -203,7 +206,7 @@ static void report_reason(const struct ceduo_place *p, ceduo_sentence_sink *sink
     const struct ceduo_outcome o = judge(p);
     const struct ceduo_subject subject = ceduo_subject_find(p->report, p->option, p->control);
     LOCAL_TEXT(reason);
-    if ((o.over_years && o.answer != CEDUO_CANNOT_JUDGE) || o.impossible)
+    if ((o.over_years && o.answer != CEDUO_JUDGEMENT_CANNOT_JUDGE) || o.impossible)
         ceduo_words_reason(&reason, &subject);
     else
         ceduo_words_judgement_reason(&reason, p->report->result, p->control, get_wooded_arrivals(p));
@@ -238,7 +241,7 @@ VALUE(standards_met, compliance, FLAG, o->standards_item ? FLAG(o->standards_met
 VALUE(turn_met, compliance, FLAG, o->turn_item && !isnan(o->turn) ? FLAG(o->turn_met) : NO_VALUE)
 VALUE(index_per_100m, index, NUMBER, NUMBER(o->length > 0 ? o->per_100m : NAN))
 VALUE(mean_adc, index, NUMBER, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
-VALUE(passes_contact, index, FLAG, FLAG(o->contact == CEDUO_PASS))
+VALUE(passes_contact, index, FLAG, FLAG(o->contact == CEDUO_LIGHT_PASS))
 VALUE(is_exhausted, index, FLAG, isnan(o->residual) ? NO_VALUE : FLAG(o->exhausted))
 VALUE(difference_bound, estimate, NUMBER, NUMBER(ceduo_pairs_are_equal(o) ? o->hi : NAN))
 VALUE(share_at, simulated, NUMBER, NUMBER(o->rocks > 0 ? *(const double *)get_member(f, o) : NAN))
@@ -274,8 +277,11 @@ VALUE(find_path, find_report, TEXT, WORD(o->file->name))
 VALUE(find_option, find_report, TEXT, WORD(o->file->scene.options[o->search->option].name_given))
 VALUE(goal_word, search, TEXT, WORD(ceduo_goals[o->goal].word))
 VALUE(search_period, search, TEXT, WORD(o->rotation ? "rotation" : "today"))
-VALUE(found_side, found, TEXT, WORD(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
-VALUE(reliable_side, reliability, TEXT, WORD(!o->found.found ? NULL : o->found.side == CEDUO_SMALLEST ? "smallest" : "largest"))
+VALUE(found_side, found, TEXT, WORD(!o->found ? NULL : o->side == CEDUO_SIDE_SMALLEST ? "smallest" : "largest"))
+VALUE(reliable_side, reliability, TEXT,
+      WORD(!o->found.found                        ? NULL
+           : o->found.side == CEDUO_SIDE_SMALLEST ? "smallest"
+                                                  : "largest"))
 
 /* ---- the tables ---- */
 
@@ -502,10 +508,10 @@ static const struct ceduo_figure designs[] = {
 
 #define MISSED(end) .value = missed_at, .offset = offsetof(struct ceduo_arrivals, missed[end])
 static const struct ceduo_figure missed[] = {
-    {"stopped_by_stems", "", "share of the released that stems stop before it", MISSED(CEDUO_STOPPED_BY_STEMS)},
-    {"came_to_rest", "", "share that comes to rest before it", MISSED(CEDUO_AT_REST)},
-    {"left_slope", "", "share that leaves the profile before it", MISSED(CEDUO_LEFT_SLOPE)},
-    {"unfinished", "", "share that was still moving before it", MISSED(CEDUO_UNFINISHED)},
+    {"stopped_by_stems", "", "share of the released that stems stop before it", MISSED(CEDUO_END_STOPPED_BY_STEMS)},
+    {"came_to_rest", "", "share that comes to rest before it", MISSED(CEDUO_END_AT_REST)},
+    {"left_slope", "", "share that leaves the profile before it", MISSED(CEDUO_END_LEFT_SLOPE)},
+    {"unfinished", "", "share that was still moving before it", MISSED(CEDUO_END_UNFINISHED)},
     END};
 
 static const struct ceduo_figure arrivals[] = {
@@ -709,11 +715,11 @@ static const struct ceduo_figure control[] = {
 
 #define ENDED(end) .value = share_at, .offset = offsetof(struct ceduo_simulated, ends.share[end])
 static const struct ceduo_figure ends[] = {
-    {"stopped_by_stems", "", "share of the released that stems stop", ENDED(CEDUO_STOPPED_BY_STEMS)},
-    {"came_to_rest", "", "share that comes to rest by itself", ENDED(CEDUO_AT_REST)},
-    {"left_slope", "", "share that leaves the profile", ENDED(CEDUO_LEFT_SLOPE)},
+    {"stopped_by_stems", "", "share of the released that stems stop", ENDED(CEDUO_END_STOPPED_BY_STEMS)},
+    {"came_to_rest", "", "share that comes to rest by itself", ENDED(CEDUO_END_AT_REST)},
+    {"left_slope", "", "share that leaves the profile", ENDED(CEDUO_END_LEFT_SLOPE)},
     {"unfinished", "", "count of rocks that were still moving after 1000000 contacts",
-     MEMBER(simulated, ends.count[CEDUO_UNFINISHED])},
+     MEMBER(simulated, ends.count[CEDUO_END_UNFINISHED])},
     END};
 
 static const struct ceduo_figure stops[] = {

@@ -2,8 +2,6 @@
 /* Figures of a row of --each: columns before those of the result, and the answer of a row that failed. */
 #include "figures_parts.h"
 
-#include "ceduo/status.h"
-
 VALUE(failed_format, row_state, TEXT, WORD("ceduo-failed-1"))
 VALUE(row_status, row_state, TEXT, WORD(o->reason ? "failed" : "ok"))
 VALUE(failed_class, row_state, COUNT, COUNT(CEDUO_CLASS_NOT_JUDGED))

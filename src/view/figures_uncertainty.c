@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures of an uncertainty report and of a calibration. */
 #include "figures_parts.h"
+#include "scene/derived.h"
 
 #include <string.h>
-
-#include "ceduo/status.h"
 
 /* ---- uncertainty ---- */
 
@@ -279,7 +278,7 @@ VALUE(correlation, place, NUMBER, NUMBER(get_calibration(o)->correlation[o->item
 VALUE(observed_what, place, TEXT, WORD(get_observation(o)->name_given))
 VALUE(observed_scene, place, TEXT, WORD(get_file(o)->name))
 VALUE(observed_option, place, TEXT, WORD(get_file(o)->scene.options[get_observation(o)->option].name_given))
-VALUE(observed_use, place, TEXT, WORD(get_observation(o)->use == CEDUO_OBSERVED_FIT ? "fit" : "check"))
+VALUE(observed_use, place, TEXT, WORD(get_observation(o)->use == CEDUO_OBSERVED_USE_FIT ? "fit" : "check"))
 VALUE(observed_n, place, COUNT, COUNT(ceduo_observed_number(get_observation(o))))
 VALUE(observed_number, place, NUMBER,
       NUMBER(ceduo_observed_shown(get_file(o), get_prediction(o), *(const double *)get_member(f, get_prediction(o)))))

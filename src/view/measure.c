@@ -5,7 +5,11 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "core/runs/assess.h"
+#include "core/runs/hazard.h"
+#include "core/runs/statistics.h"
 #include "report.h"
+#include "scene/derived.h"
 #include "words.h"
 
 static struct ceduo_measure make_share(struct ceduo_mean_share share, double lo, double hi)
@@ -89,10 +93,10 @@ struct ceduo_measure ceduo_measure_figure(enum ceduo_measure_kind kind, const st
                                                      [CEDUO_RELEASED_KJ] =
                                                          J_TO_KJ * ceduo_half_width(a->energy_per_released.se, a->released),
                                                      [CEDUO_SPEED] = ceduo_half_width(a->speed.se, a->reached)};
-    const double values[CEDUO_MEASURE_KINDS] = {[CEDUO_STOPPED] = 1000 * a->missed[CEDUO_STOPPED_BY_STEMS],
-                                                [CEDUO_RESTED] = 1000 * a->missed[CEDUO_AT_REST],
-                                                [CEDUO_GONE] = 1000 * a->missed[CEDUO_LEFT_SLOPE],
-                                                [CEDUO_ENDLESS] = 1000 * a->missed[CEDUO_UNFINISHED],
+    const double values[CEDUO_MEASURE_KINDS] = {[CEDUO_STOPPED] = 1000 * a->missed[CEDUO_END_STOPPED_BY_STEMS],
+                                                [CEDUO_RESTED] = 1000 * a->missed[CEDUO_END_AT_REST],
+                                                [CEDUO_GONE] = 1000 * a->missed[CEDUO_END_LEFT_SLOPE],
+                                                [CEDUO_ENDLESS] = 1000 * a->missed[CEDUO_END_UNFINISHED],
                                                 [CEDUO_MEAN_KJ] = J_TO_KJ * a->energy.mean,
                                                 [CEDUO_P95_KJ] = J_TO_KJ * a->energy.p95,
                                                 [CEDUO_RELEASED_KJ] = J_TO_KJ * a->energy_per_released.mean,
@@ -144,9 +148,9 @@ bool ceduo_designs_compute(const struct ceduo_report *report, size_t option, siz
     const struct ceduo_design_values *d = &r->scene->design;
     const struct ceduo_fence_years *years = ceduo_report_fence_years(report, option, control);
     to->calibrated = ceduo_notes_print(report->file->notes, "calibrated", "slope");
-    to->factors = (struct ceduo_fence_factors){.survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD),
+    to->factors = (struct ceduo_fence_factors){.survey = FACTOR(d->survey == CEDUO_QUALITY_GOOD),
                                                .model = FACTOR(to->calibrated),
-                                               .blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD),
+                                               .blocks = FACTOR(d->blocks == CEDUO_QUALITY_GOOD),
                                                .energy = d->fence_factor > 0 ? d->fence_factor : NAN};
     const struct ceduo_fence_arrivals none = ceduo_fence_none(), *bare = r->bare.arrivals[control].fence,
                                       *through = wooded && wooded->fence ? wooded->fence : &none;
@@ -190,7 +194,7 @@ const struct ceduo_distribution *ceduo_arrival_distribution(enum ceduo_spread ki
 
 bool ceduo_is_close_call(const struct ceduo_arrivals *a)
 {
-    return a && a->exceed.lo <= a->limit && a->exceed.hi > a->limit && ceduo_energy_light(a) != CEDUO_UNKNOWN;
+    return a && a->exceed.lo <= a->limit && a->exceed.hi > a->limit && ceduo_energy_light(a) != CEDUO_LIGHT_UNKNOWN;
 }
 
 const struct ceduo_topography *ceduo_topography_find(const struct ceduo_arrivals *a)

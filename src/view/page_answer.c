@@ -6,6 +6,8 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
+#include "core/runs/assess.h"
+#include "core/runs/result.h"
 #include "page_parts.h"
 #include "plot.h"
 
@@ -70,8 +72,8 @@ static void append_within_limit(struct text *text, const struct ceduo_report *re
 {
     LOCAL_TEXT(passing);
     LOCAL_TEXT(depends);
-    append_judged_options(&passing, report, today, CEDUO_YES);
-    append_judged_options(&depends, report, today, CEDUO_DEPENDS);
+    append_judged_options(&passing, report, today, CEDUO_JUDGEMENT_YES);
+    append_judged_options(&depends, report, today, CEDUO_JUDGEMENT_DEPENDS);
     ceduo_text_append_char(text, ' ');
     ceduo_text_append_with(text, sentence, ceduo_text_string(&passing));
     if (strcmp(ceduo_text_string(&depends), _("none")) != 0)
@@ -121,7 +123,7 @@ static void add_mean(struct ceduo_page *page, const struct ceduo_subject *s)
     ceduo_text_format(text, _("mean %s%s of 1000, worst %.0f in year %u"), WITH_ERROR(s->mean, " "), ceduo_text_string(&range),
                       1000 * c->worst.mean, c->last_summary->worst_year);
     ceduo_text_format(text, _("; today %s"), MEASURE_VALUE(s->today));
-    if (s->outcome.today != CEDUO_UNANSWERED)
+    if (s->outcome.today != CEDUO_JUDGEMENT_UNANSWERED)
         ceduo_text_format(text, " (%s)", ceduo_words_judgement_name(s->outcome.today));
 }
 

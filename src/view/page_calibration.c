@@ -7,6 +7,8 @@
 #include "base/language.h"
 #include "page_parts.h"
 #include "report.h"
+#include "study/observe.h"
+#include "study/predict.h"
 
 #define CORRELATED  0.7 /* correlation from which a pair is reported */
 #define GROUND_PATH "slope.materials["
@@ -67,7 +69,7 @@ void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration
         const char *between = i > 0 ? "; " : "";
         for (size_t k = 0; k < r->answer->predicted_count; k++) {
             const struct ceduo_observation *o = ceduo_observed_find(r, &r->answer->predicted[k]);
-            if (o->use != CEDUO_OBSERVED_FIT)
+            if (o->use != CEDUO_OBSERVED_USE_FIT)
                 continue;
             ceduo_text_format(text, "%s%zu ", between, ceduo_observed_number(o));
             ceduo_text_append_escaped(text, o->name_given);
@@ -158,12 +160,12 @@ static void add_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         append_observation_name(&name, r, p);
         if (p->p_value < CEDUO_MISFIT)
             ceduo_page_para(page, CEDUO_PAGE_WARNING,
-                            o->use != CEDUO_OBSERVED_FIT
+                            o->use != CEDUO_OBSERVED_USE_FIT
                                 ? _("The fit does not reproduce the observations held back to check it: %s.")
                             : p->inside ? _("The model reproduces the observed mean, but not the spread of the values: %s.")
                                         : _("The model cannot reproduce %s."),
                             ceduo_text_string(&name));
-        if (o->use == CEDUO_OBSERVED_CHECK && o->values && !isnan(p->one_lo)) {
+        if (o->use == CEDUO_OBSERVED_USE_CHECK && o->values && !isnan(p->one_lo)) {
             LOCAL_TEXT(range); /* 95 % range of single rocks, compared with observations held back */
             append_range(&range, ceduo_observed_shown(file, p, p->one_lo), ceduo_observed_shown(file, p, p->one_hi));
             ceduo_page_para(page, CEDUO_PAGE_ITEM,
@@ -243,7 +245,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
         const struct ceduo_observation *o = ceduo_observed_find(r, p);
         const struct scene_file *file = &r->files[p->scene];
         append_observation_name(ceduo_page_text(&page), r, p);
-        ceduo_page_cell_format(&page, "%s", o->use == CEDUO_OBSERVED_FIT ? _("fit") : _("check"));
+        ceduo_page_cell_format(&page, "%s", o->use == CEDUO_OBSERVED_USE_FIT ? _("fit") : _("check"));
         ceduo_page_cell_format(&page, "%zu", ceduo_observed_number(o));
         ceduo_page_cell_format(&page, "%s", SIG(ceduo_observed_shown(file, p, p->observed), 3));
         append_range(ceduo_page_text(&page), ceduo_observed_shown(file, p, p->lo), ceduo_observed_shown(file, p, p->hi));

@@ -9,9 +9,16 @@
 #include "base/language.h"
 #include "base/oom.h"
 #include "base/utf8.h"
+#include "core/runs/hazard.h"
+#include "core/runs/result.h"
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
+#include "core/runs/year_runs.h"
 #include "page_parts.h"
 #include "plot.h"
 #include "scene/choices.h"
+#include "scene/derived.h"
+#include "scene/stand.h"
 #include "study/verdict.h"
 
 /* Name, head, width, flags. BAR draws the column after it. */
@@ -184,11 +191,11 @@ static double get_value(enum column column, const struct ceduo_subject *s)
 static enum ceduo_light get_light(enum column column, const struct ceduo_subject *s)
 {
     bool contact = column == ADC || column == CONTACT, energy = column == TODAY || column == ENERGY;
-    return !s->index            ? CEDUO_UNKNOWN
+    return !s->index            ? CEDUO_LIGHT_UNKNOWN
            : contact            ? s->index->contact
            : energy             ? s->index->energy
            : column == FREE_RUN ? s->index->free_run
-                                : CEDUO_UNKNOWN;
+                                : CEDUO_LIGHT_UNKNOWN;
 }
 
 /* Return a share with its error, or the return period if `rates`. */
@@ -318,11 +325,11 @@ static void add_bar(struct ceduo_page *page, enum column column, const struct ce
     double value = get_value(column, s);
     enum ceduo_light light = get_light(column, s);
     if (column == RESIDUAL && s->index && !isnan(limit))
-        light = value <= limit ? CEDUO_PASS : CEDUO_FAIL;
+        light = value <= limit ? CEDUO_LIGHT_PASS : CEDUO_LIGHT_FAIL;
     ceduo_page_bar(page, value,
-                   !s->index                ? CEDUO_ROLE_BARE
-                   : light == CEDUO_UNKNOWN ? CEDUO_ROLE_FOREST
-                                            : ceduo_plot_light_role(light))
+                   !s->index                      ? CEDUO_ROLE_BARE
+                   : light == CEDUO_LIGHT_UNKNOWN ? CEDUO_ROLE_FOREST
+                                                  : ceduo_plot_light_role(light))
         ->limit = limit;
 }
 
@@ -470,11 +477,11 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
         const enum ceduo_light lights[3] = {s->contact, s->free_run, s->energy};
         for (size_t k = 0; k < 3; k++)
-            passes[k] += lights[k] == CEDUO_PASS;
+            passes[k] += lights[k] == CEDUO_LIGHT_PASS;
     }
     /* a test with the same result for all options does not help to choose */
     for (size_t k = 0; k < (r->wooded && !isnan(last_control(r)->accepted) ? 3u : 2u); k++)
-        if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
+        if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_LIGHT_UNKNOWN))
             ceduo_page_para(page, CEDUO_PAGE_NOTE,
                             passes[k] == n ? _("Today all options pass the test of %s: it does not distinguish them.")
                                            : _("Today no option passes the test of %s: it does not distinguish them."),

@@ -4,7 +4,9 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "core/runs/run.h"
 #include "page_parts.h"
+#include "scene/derived.h"
 
 /* ---- which fence is enough ---- */
 

@@ -23,8 +23,8 @@ static double round_to_goal(const struct ceduo_search *s, const struct ceduo_fou
     double scale = pow(10, fmax(0, 3 - floor(log10(fabs(f->value)))));
     if (f->whole_range || !isfinite(scale) || f->value == floor(f->value))
         return f->value;
-    return f->side == CEDUO_SMALLEST ? fmin(s->hi, ceil(f->value * scale) / scale)
-                                     : fmax(s->lo, floor(f->value * scale) / scale);
+    return f->side == CEDUO_SIDE_SMALLEST ? fmin(s->hi, ceil(f->value * scale) / scale)
+                                          : fmax(s->lo, floor(f->value * scale) / scale);
 }
 
 void ceduo_find_reliable(struct text *text, const struct ceduo_search *s, const struct ceduo_reliability *reliability,
@@ -59,9 +59,9 @@ void ceduo_find_words(struct text *text, const struct ceduo_search *s, const str
     append_goal(&goal, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest, s->target);
     if (f->found)
         ceduo_text_format(text,
-                          f->whole_range              ? _("every value of the range reaches the goal: %s")
-                          : f->side == CEDUO_SMALLEST ? _("the smallest value that reaches the goal: %s")
-                                                      : _("the largest value that reaches the goal: %s"),
+                          f->whole_range                   ? _("every value of the range reaches the goal: %s")
+                          : f->side == CEDUO_SIDE_SMALLEST ? _("the smallest value that reaches the goal: %s")
+                                                           : _("the largest value that reaches the goal: %s"),
                           goal.bytes);
     else
         ceduo_text_format(text, _("no value from %s to %s reaches the goal"), ceduo_format_number(field, s->lo, buffer),

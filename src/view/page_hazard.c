@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "core/runs/hazard.h"
 #include "page_parts.h"
 #include "plot.h"
 

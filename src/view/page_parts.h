@@ -86,8 +86,8 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *subje
 void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *result, size_t option, size_t control,
                             bool bare);
 
-/* Append the answer about the fences (page_fence.c): the fence that is enough without and with forest, today and over the years.
- * With several options: of the best one. Nothing without a fence. `brief`: without rates. */
+/* Append the answer about the fences (page_fence.c): the fence that is enough without and with forest, today and over the
+ * years. With several options: of the best one. Nothing without a fence. `brief`: without rates. */
 void ceduo_page_fence_answer(struct ceduo_page *page, const struct ceduo_report *report, bool brief);
 /* Append which class of each height is enough at a control; nothing without a fence. */
 void ceduo_page_fence(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control);

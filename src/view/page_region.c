@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A region: many lines of one scene on one page. Answers by class, rocks a year of all lines together, the worst lines, and the lines
- * that were not judged. */
+/* A region: many lines of one scene on one page. Answers by class, rocks a year of all lines together, the worst lines, and the
+ * lines that were not judged. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "base/oom.h"
-#include "ceduo/status.h"
 #include "page_parts.h"
 #include "svg.h"
 

@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/status.h"
 #include "io/node.h"
 #include "page_parts.h"
 #include "plot.h"
+#include "scene/derived.h"
 #include "svg.h"
 
 /* ---- pictures ---- */
@@ -79,11 +79,11 @@ static void add_uncertainty(struct ceduo_page *page, const struct ceduo_report *
     if (o.over_years && o.uncertain && r->scene->blocks_count == 0)
         ceduo_text_append_joined(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
                                  o.failing_hi, report->verdict->choices[option].last_summary->years);
-    if (o.answer == CEDUO_DEPENDS)
+    if (o.answer == CEDUO_JUDGEMENT_DEPENDS)
         ceduo_text_append_joined(text, " ", "%s",
                                  _("Some of these cases keep within the limit and some do not: the answer depends on "
                                    "uncertain inputs."));
-    else if (o.answer == CEDUO_YES || o.answer == CEDUO_NO)
+    else if (o.answer == CEDUO_JUDGEMENT_YES || o.answer == CEDUO_JUDGEMENT_NO)
         ceduo_text_append_joined(text, " ", "%s", _("The answer is the same in all of these cases."));
 }
 

@@ -7,19 +7,24 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "core/runs/assess.h"
+#include "core/runs/result.h"
+#include "core/runs/run.h"
+#include "core/stand/adc.h"
 #include "page_parts.h"
 #include "plot.h"
 #include "scene/choices.h"
+#include "scene/rock.h"
 #include "value_text.h"
 
 /* ---- head ---- */
 
 /* Display names of words in files. */
-static const char *const shapes[] = {[CEDUO_SPHERE] = N_("sphere"),
-                                     [CEDUO_CYLINDER] = N_("cylinder"),
-                                     [CEDUO_ELLIPSOID] = N_("ellipsoid"),
-                                     [CEDUO_BLOCK] = N_("block")};
-static const char *const facets[] = {[CEDUO_AGAINST] = N_("against"), [CEDUO_BOTH] = N_("both")};
+static const char *const shapes[] = {[CEDUO_SHAPE_SPHERE] = N_("sphere"),
+                                     [CEDUO_SHAPE_CYLINDER] = N_("cylinder"),
+                                     [CEDUO_SHAPE_ELLIPSOID] = N_("ellipsoid"),
+                                     [CEDUO_SHAPE_BLOCK] = N_("block")};
+static const char *const facets[] = {[CEDUO_FACETS_AGAINST] = N_("against"), [CEDUO_FACETS_BOTH] = N_("both")};
 
 static const char *assumed_mark(const struct ceduo_report *report, const char *path)
 {
@@ -144,7 +149,9 @@ static void add_test(struct ceduo_page *page, const struct ceduo_subject *s, con
     ceduo_page_cell_format(page, "%s", limit);
     ceduo_page_light(page, today);
     if (c && page->width < CEDUO_PAGE_WIDTH)
-        ceduo_page_light(page, !known || c->last_summary->nothing ? CEDUO_UNKNOWN : failing > 0 ? CEDUO_FAIL : CEDUO_PASS);
+        ceduo_page_light(page, !known || c->last_summary->nothing ? CEDUO_LIGHT_UNKNOWN
+                               : failing > 0                      ? CEDUO_LIGHT_FAIL
+                                                                  : CEDUO_LIGHT_PASS);
     else
         ceduo_page_cell_format(page, "%s", "");
 }
@@ -175,7 +182,7 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
                                                 {"", 1, 1, 0},
                                                 {"", 1, 0, 0}};
     double threshold = scene->simulation.threshold, limit = ceduo_exceed_limit(scene, s->place), share = s->today.value / 1000;
-    bool judged = index->energy != CEDUO_UNKNOWN && s->wooded;
+    bool judged = index->energy != CEDUO_LIGHT_UNKNOWN && s->wooded;
     LOCAL_TEXT(adc_limit);
     LOCAL_TEXT(free_run_limit);
     LOCAL_TEXT(energy_limit);
@@ -224,7 +231,8 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_report *rep
     if (s.index && s.wooded && control == report->result->last_control)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
-                        ends[CEDUO_STOPPED_BY_STEMS] * 1000, ends[CEDUO_AT_REST] * 1000, ends[CEDUO_LEFT_SLOPE] * 1000);
+                        ends[CEDUO_END_STOPPED_BY_STEMS] * 1000, ends[CEDUO_END_AT_REST] * 1000,
+                        ends[CEDUO_END_LEFT_SLOPE] * 1000);
 }
 
 static void add_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
@@ -264,7 +272,7 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
         ceduo_page_cell_role(page, CEDUO_ROLE_BELT, ceduo_text_string(&name));
         ceduo_page_cell_format(page, "%s\xe2\x80\x93%s", LOCALIZED(b->from_given), LOCALIZED(b->to_given));
         ceduo_page_cell_format(page, "%s", VS_LIMIT(s->adc_m, 3, scene->simulation.threshold));
-        ceduo_page_light(page, s->passes_threshold ? CEDUO_PASS : CEDUO_FAIL);
+        ceduo_page_light(page, s->passes_threshold ? CEDUO_LIGHT_PASS : CEDUO_LIGHT_FAIL);
         ceduo_page_free_run(page, s->free_run_probability);
         ceduo_page_number(page, s->dissipated * J_TO_KJ, 3);
         ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
@@ -296,7 +304,7 @@ static void add_other_forms(struct ceduo_page *page, const struct ceduo_scene *s
         const char *between = "";
         ceduo_text_format(line, _("%s by %s; other forms:"), o->belts[i].name,
                           ceduo_words_law(ceduo_rule_words.names[s->rule]));
-        for (enum ceduo_rule rule = CEDUO_GSTEIGER_STOOLS; rule <= CEDUO_CROFTON; rule++)
+        for (enum ceduo_rule rule = CEDUO_RULE_GSTEIGER_STOOLS; rule <= CEDUO_RULE_CROFTON; rule++)
             if (rule != s->rule) {
                 ceduo_text_format(line, "%s %s %s m", between, ceduo_words_law(ceduo_rule_words.names[rule]),
                                   SIG(ceduo_adc_value(&s->adc, rule), 3));
@@ -365,7 +373,7 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
             page, "%s", INTERVAL(ceduo_measure_exceeding(c, ceduo_rocks_released(&b->arrivals) > 0 ? &b->arrivals : NULL)));
         skipped |= ceduo_rocks_released(&b->arrivals) == 0;
     }
-    if (skipped && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
+    if (skipped && r->scene->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX && ceduo_result_rocks(r) > 0)
         ceduo_page_para(page, CEDUO_PAGE_SENTENCE,
                         _("A size with a dash was skipped: its rocks meet too many stems to be simulated here."));
 }

@@ -28,8 +28,9 @@ struct ceduo_profile {
 
 static int rank_judgement(enum ceduo_judgement judgement)
 {
-    static const int ranks[] = {[CEDUO_UNANSWERED] = 0,  [CEDUO_YES] = 1,     [CEDUO_CANNOT_JUDGE] = 2,
-                                [CEDUO_NOT_DECIDED] = 3, [CEDUO_DEPENDS] = 4, [CEDUO_NO] = 5};
+    static const int ranks[] = {
+        [CEDUO_JUDGEMENT_UNANSWERED] = 0,  [CEDUO_JUDGEMENT_YES] = 1,     [CEDUO_JUDGEMENT_CANNOT_JUDGE] = 2,
+        [CEDUO_JUDGEMENT_NOT_DECIDED] = 3, [CEDUO_JUDGEMENT_DEPENDS] = 4, [CEDUO_JUDGEMENT_NO] = 5};
     return ranks[judgement];
 }
 
@@ -54,7 +55,7 @@ void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *rep
     for (size_t i = 0; i < n; i++) {
         struct profile_option *option = &to->options[i];
         LOCAL_TEXT(answer);
-        *option = (struct profile_option){copy_string(p, r->scene->options[i].name), "-", CEDUO_UNANSWERED, 0, NAN};
+        *option = (struct profile_option){copy_string(p, r->scene->options[i].name), "-", CEDUO_JUDGEMENT_UNANSWERED, 0, NAN};
         if (!c)
             continue;
         const struct ceduo_subject subject = ceduo_subject_find(report, i, r->last_control);
@@ -109,7 +110,7 @@ static bool has_one_place(const struct ceduo_profiles *p)
             (a->place && strcmp(a->place, b->place) != 0))
             return false;
         for (size_t k = 0; k < a->n; k++)
-            if (b->options[k].judgement == CEDUO_UNANSWERED ||
+            if (b->options[k].judgement == CEDUO_JUDGEMENT_UNANSWERED ||
                 (a->n > 1 && strcmp(a->options[k].name, b->options[k].name) != 0))
                 return false;
     }
@@ -119,7 +120,7 @@ static bool has_one_place(const struct ceduo_profiles *p)
 /* Append the worst judgement of an option over all profiles. */
 static void add_overall(struct ceduo_page *page, const struct ceduo_profiles *p, size_t option)
 {
-    enum ceduo_judgement worst = CEDUO_YES;
+    enum ceduo_judgement worst = CEDUO_JUDGEMENT_YES;
     size_t n = 0;
     for (size_t i = 0; i < p->count; i++)
         if (p->items[i].options[option].rank > rank_judgement(worst))

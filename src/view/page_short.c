@@ -6,8 +6,11 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
+#include "core/runs/result.h"
 #include "page_parts.h"
 #include "plot.h"
+#include "scene/derived.h"
+#include "scene/rock.h"
 
 #define LINES        24 /* lines for one option */
 #define LINES_SHARED 14 /* lines for several options … */

@@ -9,8 +9,10 @@
 #include "page_parts.h"
 #include "plot.h"
 #include "report.h"
+#include "scene/derived.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
+#include "study/dominant_inputs.h"
 #include "value_text.h"
 
 #define SHARE_MIN   0.01 /* min share of a listed input */

@@ -4,8 +4,10 @@
 #include <stdio.h>
 
 #include "base/language.h"
+#include "core/runs/run.h"
 #include "plot.h"
 #include "report.h"
+#include "scene/derived.h"
 
 struct chart_size {
     int axis, below;   /* columns of the left axis, rows of the bottom axis */
@@ -186,8 +188,8 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
 
 /* ---- classes of fences ---- */
 
-/* Rocks of 1000 that defeat a fence of the control's height (y), by its class (x), without forest and for each option. The rule is
- * the limit. */
+/* Rocks of 1000 that defeat a fence of the control's height (y), by its class (x), without forest and for each option. The rule
+ * is the limit. */
 const char *ceduo_plot_fence(struct ceduo_drawing *d)
 {
     static const struct chart_size size = {.axis = 6, .below = 1, .legend = 30, .width = 24, .height = 6};

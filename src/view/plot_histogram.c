@@ -5,6 +5,7 @@
 
 #include "base/language.h"
 #include "base/oom.h"
+#include "core/runs/statistics.h"
 #include "plot.h"
 #include "report.h"
 

@@ -5,6 +5,7 @@
 #include "base/language.h"
 #include "base/oom.h"
 #include "base/utf8.h"
+#include "core/runs/run.h"
 #include "plot.h"
 
 /* An option over the years: ADC and limit, judged share, lights and cuts on one axis. */
@@ -103,7 +104,7 @@ const char *ceduo_plot_rotation(struct ceduo_drawing *d)
             const struct ceduo_index *s = &years->years[year].controls[d->picture->control];
             enum ceduo_light light = k == 0 ? s->contact : k == 1 ? s->free_run : s->energy;
             int column = find_column(d, x[year]);
-            if (column >= 0 && (light == CEDUO_FAIL) == (i >= years->count))
+            if (column >= 0 && (light == CEDUO_LIGHT_FAIL) == (i >= years->count))
                 ceduo_canvas_label(d->canvas, column, row, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));
         }
     }

@@ -2,7 +2,9 @@
 #include <math.h>
 
 #include "base/language.h"
+#include "core/stand/adc.h"
 #include "plot.h"
+#include "scene/stand.h"
 
 /* A stand from above, or a rock's trajectory through it. Stems are spread evenly without randomness, each kind on its own.
  * If a number changes, the remaining stems do not move. */

@@ -5,6 +5,7 @@
 
 #include "base/language.h"
 #include "plot.h"
+#include "scene/stand.h"
 
 /* ---- pictures ---- */
 
@@ -43,7 +44,7 @@ static struct ceduo_drawing make_drawing(const struct ceduo_picture *p)
                               .control = p->control < s->controls_count ? &s->controls[p->control] : NULL,
                               .run = ceduo_snapshot_find(p->snapshot, s, p->option),
                               .bare = p->snapshot ? p->snapshot->bare : NULL,
-                              .wooded = s->simulation.contact_model != CEDUO_INDEX,
+                              .wooded = s->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX,
                               .from = all ? slope->x[0] : fmax(p->from, slope->x[0]),
                               .to = all ? *last : fmin(p->to, *last)};
     d.belt = d.option && p->belt < d.option->belts_count ? &d.option->belts[p->belt] : NULL;
@@ -173,12 +174,12 @@ void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt)
 
 enum ceduo_role ceduo_plot_light_role(enum ceduo_light light)
 {
-    return light == CEDUO_PASS ? CEDUO_ROLE_GOOD : light == CEDUO_FAIL ? CEDUO_ROLE_BAD : CEDUO_ROLE_DIM;
+    return light == CEDUO_LIGHT_PASS ? CEDUO_ROLE_GOOD : light == CEDUO_LIGHT_FAIL ? CEDUO_ROLE_BAD : CEDUO_ROLE_DIM;
 }
 
 const char *ceduo_plot_light_mark(enum ceduo_light light)
 {
-    return light == CEDUO_PASS ? "\xe2\x9c\x94" : light == CEDUO_FAIL ? "\xe2\x9c\x98" : "?";
+    return light == CEDUO_LIGHT_PASS ? "\xe2\x9c\x94" : light == CEDUO_LIGHT_FAIL ? "\xe2\x9c\x98" : "?";
 }
 
 void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light)

@@ -3,11 +3,6 @@
 #define CEDUO_REPORT_H
 
 #include "base/arena.h"
-#include "ceduo/blocks.h"
-#include "ceduo/calibrate.h"
-#include "ceduo/find.h"
-#include "ceduo/surface.h"
-#include "ceduo/uncertainty.h"
 #include "io/scene_file.h"
 #include "study/goal.h"
 #include "study/snapshot.h"

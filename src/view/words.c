@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "words.h"
+#include "core/runs/assess.h"
+#include "core/stand/adc.h"
+#include "core/stand/rotation.h"
+#include "scene/species.h"
+#include "scene/stand.h"
+#include "scene/volume.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -133,12 +139,13 @@ void ceduo_words_implausible(const struct ceduo_belt *belt, const struct ceduo_s
                              void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
-    const struct ceduo_stems *const odd[] = {find_implausible(s, CEDUO_WARN_SLENDER), find_implausible(s, CEDUO_WARN_STOUT)};
-    if (r->warnings & CEDUO_WARN_BASAL_AREA)
+    const struct ceduo_stems *const odd[] = {find_implausible(s, CEDUO_WARNING_SLENDER),
+                                             find_implausible(s, CEDUO_WARNING_STOUT)};
+    if (r->warnings & CEDUO_WARNING_BASAL_AREA)
         ceduo_words_format(sink, context,
                            _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."),
                            NAME_OF(belt), r->basal_area, CEDUO_BASAL_AREA_MAX);
-    if (r->warnings & CEDUO_WARN_MANY_SHOOTS)
+    if (r->warnings & CEDUO_WARNING_MANY_SHOOTS)
         ceduo_words_format(sink, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."),
                            NAME_OF(belt), ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MAX);
     for (size_t i = 0; i < 2; i++)
@@ -163,7 +170,7 @@ void ceduo_words_implausible(const struct ceduo_belt *belt, const struct ceduo_s
 void ceduo_words_thick_stems(const struct ceduo_belt *belt, ceduo_sentence_sink *sink, void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
-    const struct ceduo_stems *thick = find_implausible(s, CEDUO_WARN_THICK);
+    const struct ceduo_stems *thick = find_implausible(s, CEDUO_WARNING_THICK);
     size_t n;
     if (thick)
         ceduo_words_format(sink, context,
@@ -181,31 +188,31 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
     ceduo_words_implausible(belt, r, sink, context);
     ceduo_words_thick_stems(belt, sink, context);
     double diameter = ceduo_rock_mean(&scene->rock).mean_diameter;
-    if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
+    if (r->warnings & CEDUO_WARNING_BELOW_FREE_PATH)
         ceduo_words_format(sink, context,
                            _("%s: Eq. 6 gives %.2f m between contacts, below the mean free path of %.2f m over all stems. This "
                              "is impossible: spacing %g m is too wide for %.1f shoots per stool."),
                            NAME_OF(belt), r->adc.interception, r->adc.gsteiger_stems, s->spacing,
                            ceduo_stand_shoots(s) / s->stools_per_ha);
-    if (r->warnings & CEDUO_WARN_NEAR_JUMP)
+    if (r->warnings & CEDUO_WARNING_NEAR_JUMP)
         ceduo_words_format(
             sink, context,
             _("%s: the rock (%.2f m) is within 10 %% of the shoots' spacing (%g m), where the paper's rule jumps "
               "between %.2f m (all stems) and %.2f m (Eq. 6)."),
             NAME_OF(belt), diameter, s->spacing, r->adc.gsteiger_stems, r->adc.interception);
-    if (r->warnings & CEDUO_WARN_WIDE_SPACING)
+    if (r->warnings & CEDUO_WARNING_WIDE_SPACING)
         ceduo_words_format(sink, context,
                            _("%s: the shoots of a stool stand so far apart (%g m) that the rock can pass between two of them."),
                            NAME_OF(belt), s->spacing);
-    if (r->warnings & CEDUO_WARN_DORREN_THIN)
+    if (r->warnings & CEDUO_WARNING_DORREN_THIN)
         ceduo_words_format(
             sink, context,
             _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overestimates there."),
             NAME_OF(belt));
-    if (r->warnings & CEDUO_WARN_RATIO_ASSUMED)
+    if (r->warnings & CEDUO_WARNING_RATIO_ASSUMED)
         ceduo_words_format(sink, context, _("%s: no fracture ratio is published for this species; 1 is assumed."),
                            NAME_OF(belt));
-    if (r->warnings & CEDUO_WARN_LOW)
+    if (r->warnings & CEDUO_WARNING_LOW)
         ceduo_words_format(
             sink, context,
             _("%s: stumps and logs are among the contacts of the index, but the lights of contact and free run do "
@@ -214,11 +221,11 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
     const struct ceduo_stems *first =
         NULL; /* first kind of stem with a volume by form factor; too thick ones are reported above */
     size_t n = 0;
-    for (size_t i = 0; r->warnings & CEDUO_WARN_FORM_FACTOR && get_stems(s, i); i++) {
+    for (size_t i = 0; r->warnings & CEDUO_WARNING_FORM_FACTOR && get_stems(s, i); i++) {
         enum ceduo_volume_from from;
         ceduo_stem_volume(s, get_stems(s, i), &from);
         if (from == CEDUO_VOLUME_FORM_FACTOR && get_stems(s, i)->per_ha > 0 &&
-            !(ceduo_stem_warnings(s, get_stems(s, i)) & CEDUO_WARN_THICK))
+            !(ceduo_stem_warnings(s, get_stems(s, i)) & CEDUO_WARNING_THICK))
             first = n++ == 0 ? get_stems(s, i) : first;
     }
     if (n > 0)
@@ -236,7 +243,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
                            "species' volume equation; the form factor of the nearest size is assumed.",
                            n),
             NAME_OF(belt), n, first->dbh * 100, first->height);
-    if (r->warnings & CEDUO_WARN_U_ASSUMED)
+    if (r->warnings & CEDUO_WARNING_U_ASSUMED)
         ceduo_words_format(sink, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."),
                            NAME_OF(belt), ceduo_stand_u(s));
 }
@@ -245,14 +252,14 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
 
 const char *ceduo_words_verdict(enum ceduo_light light)
 {
-    return light == CEDUO_PASS ? _("passes") : light == CEDUO_FAIL ? _("FAILS") : _("unknown");
+    return light == CEDUO_LIGHT_PASS ? _("passes") : light == CEDUO_LIGHT_FAIL ? _("FAILS") : _("unknown");
 }
 
 /* Append why contact or free run passes or fails. */
 static void append_test_reason(struct text *text, const struct ceduo_index *s, double limit, bool contact)
 {
     const char *adc = VS_LIMIT(s->worst_adc, 3, limit);
-    if (contact && s->contact == CEDUO_PASS)
+    if (contact && s->contact == CEDUO_LIGHT_PASS)
         ceduo_text_format(text, _("Every belt has an ADC below %g m (%s m at most) and no gap is longer."), limit, adc);
     else if (!(s->length > 0))
         ceduo_text_append(text, _("No stem stands on the path."));

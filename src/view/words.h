@@ -3,8 +3,6 @@
 #define CEDUO_WORDS_H
 
 #include "base/text.h"
-#include "ceduo/result.h"
-#include "ceduo/years.h"
 #include "study/verdict.h"
 
 #define J_TO_KJ 1e-3
@@ -59,7 +57,8 @@ void ceduo_words_judgement_reason(struct text *text, const struct ceduo_result *
 
 struct ceduo_subject; /* measure.h */
 
-const char *ceduo_words_judgement_name(enum ceduo_judgement judgement); /* "NO", translated; not for CEDUO_UNANSWERED */
+const char *
+ceduo_words_judgement_name(enum ceduo_judgement judgement); /* "NO", translated; not for CEDUO_JUDGEMENT_UNANSWERED */
 const char *ceduo_words_judgement_mark(enum ceduo_judgement judgement,
                                        char buffer[CEDUO_WORDS_SIZE]); /* "✘ NO"; "": unanswered */
 #define JUDGEMENT_MARK(judgement) ceduo_words_judgement_mark(judgement, (char[CEDUO_WORDS_SIZE]){0})

@@ -5,20 +5,23 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
+#include "core/runs/assess.h"
 #include "plot.h"
 #include "report.h"
+#include "scene/derived.h"
+#include "scene/slope.h"
 #include "words.h"
 
 /* Word in files, text for people, and light of each judgement. */
 static const struct {
     const char *word, *verdict;
     enum ceduo_light light;
-} judgements[] = {[CEDUO_UNANSWERED] = {NULL, NULL, CEDUO_UNKNOWN},
-                  [CEDUO_YES] = {"yes", N_("YES"), CEDUO_PASS},
-                  [CEDUO_NO] = {"no", N_("NO"), CEDUO_FAIL},
-                  [CEDUO_NOT_DECIDED] = {"not-decided", N_("NOT DECIDED"), CEDUO_UNKNOWN},
-                  [CEDUO_DEPENDS] = {"depends", N_("IT DEPENDS"), CEDUO_UNKNOWN},
-                  [CEDUO_CANNOT_JUDGE] = {"nothing", N_("CANNOT BE ASSESSED"), CEDUO_UNKNOWN}};
+} judgements[] = {[CEDUO_JUDGEMENT_UNANSWERED] = {NULL, NULL, CEDUO_LIGHT_UNKNOWN},
+                  [CEDUO_JUDGEMENT_YES] = {"yes", N_("YES"), CEDUO_LIGHT_PASS},
+                  [CEDUO_JUDGEMENT_NO] = {"no", N_("NO"), CEDUO_LIGHT_FAIL},
+                  [CEDUO_JUDGEMENT_NOT_DECIDED] = {"not-decided", N_("NOT DECIDED"), CEDUO_LIGHT_UNKNOWN},
+                  [CEDUO_JUDGEMENT_DEPENDS] = {"depends", N_("IT DEPENDS"), CEDUO_LIGHT_UNKNOWN},
+                  [CEDUO_JUDGEMENT_CANNOT_JUDGE] = {"nothing", N_("CANNOT BE ASSESSED"), CEDUO_LIGHT_UNKNOWN}};
 
 const char *ceduo_words_judgement(enum ceduo_judgement judgement)
 {
@@ -122,12 +125,12 @@ void ceduo_words_judgement_reason(struct text *text, const struct ceduo_result *
     const struct ceduo_control *c = &r->scene->controls[control];
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     enum ceduo_judgement judgement = ceduo_judge_control(bare, wooded);
-    bool also_bare = ceduo_judge_control(bare, NULL) == CEDUO_YES;
-    if (judgement == CEDUO_CANNOT_JUDGE) {
+    bool also_bare = ceduo_judge_control(bare, NULL) == CEDUO_JUDGEMENT_YES;
+    if (judgement == CEDUO_JUDGEMENT_CANNOT_JUDGE) {
         ceduo_words_too_few_arrivals(text, r, control);
         return;
     }
-    if (judgement == CEDUO_UNANSWERED) {
+    if (judgement == CEDUO_JUDGEMENT_UNANSWERED) {
         ceduo_text_append(text, isnan(c->accepted) ? _("No accepted energy is set (accepted_kJ).")
                                 : !r->wooded       ? _("With contact_model: index no rocks are simulated through the forest.")
                                                    : _("Not computed yet."));
@@ -141,10 +144,10 @@ void ceduo_words_judgement_reason(struct text *text, const struct ceduo_result *
     else
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
                           INTERVAL(ceduo_measure_exceeding(c, shown)), ceduo_words_accepted(c), CEDUO_EXCEED_MAX * 1000);
-    if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
+    if (ceduo_energy_light(shown) == CEDUO_LIGHT_UNKNOWN)
         ceduo_text_append_joined(text, " ", _("%llu rocks were still moving when the simulation stopped; they may arrive."),
                                  (unsigned long long)ceduo_rocks_unfinished(shown));
-    else if (judgement == CEDUO_NOT_DECIDED)
+    else if (judgement == CEDUO_JUDGEMENT_NOT_DECIDED)
         ceduo_text_append_joined(text, " ", _("%llu rocks are too few to decide; simulate more."),
                                  (unsigned long long)ceduo_rocks_released(shown));
     else if (also_bare)
@@ -201,7 +204,7 @@ const char *ceduo_words_judgement_name(enum ceduo_judgement judgement)
 
 const char *ceduo_words_judgement_mark(enum ceduo_judgement judgement, char buffer[CEDUO_WORDS_SIZE])
 {
-    if (judgement != CEDUO_UNANSWERED)
+    if (judgement != CEDUO_JUDGEMENT_UNANSWERED)
         snprintf(buffer, CEDUO_WORDS_SIZE, "%s %s", ceduo_plot_light_mark(judgements[judgement].light),
                  ceduo_words_judgement_name(judgement));
     return buffer;
@@ -214,14 +217,14 @@ enum length { FULL, LONG, MIDDLE, SHORT, BRIEF, LENGTHS };
 static void append_today(struct text *text, const struct ceduo_outcome *o, double today, bool word)
 {
     ceduo_text_format(text, _("; today %.0f"), today);
-    if (word && o->today != CEDUO_UNANSWERED)
+    if (word && o->today != CEDUO_JUDGEMENT_UNANSWERED)
         ceduo_text_format(text, " (%s)", ceduo_words_judgement_name(o->today));
 }
 
 /* Append years above the limit: "17", or "0–12" if the answer is open. */
 static void append_count(struct text *text, const struct ceduo_outcome *o)
 {
-    if (o->answer == CEDUO_NO || !(o->failing_lo < o->failing_hi))
+    if (o->answer == CEDUO_JUDGEMENT_NO || !(o->failing_lo < o->failing_hi))
         ceduo_text_format(text, "%.0f", o->failing);
     else
         ceduo_text_format(text, "%.0f\xe2\x80\x93%.0f", o->failing_lo, o->failing_hi);
@@ -251,7 +254,7 @@ static void append_years(struct text *text, const struct ceduo_subject *s, enum 
                 accepted, ceduo_text_string(&count), summary->years);
         return;
     }
-    if (o->answer == CEDUO_YES)
+    if (o->answer == CEDUO_JUDGEMENT_YES)
         ceduo_text_format(text,
                           length <= LONG     ? _("in every year of %zu at most %.0f of 1000 rocks exceed %s kJ")
                           : length == MIDDLE ? _("in every year of %zu at most %.0f of 1000 exceed %s kJ")
@@ -264,7 +267,7 @@ static void append_years(struct text *text, const struct ceduo_subject *s, enum 
                           : length == SHORT  ? _("above the limit in %s of %zu years")
                                              : _("in %s of %zu years"),
                           ceduo_text_string(&count), summary->years, accepted, limit);
-    if (length == FULL && o->answer != CEDUO_YES && !s->mean_shown)
+    if (length == FULL && o->answer != CEDUO_JUDGEMENT_YES && !s->mean_shown)
         ceduo_text_format(text, _(": mean %.0f, worst %.0f in year %u"), 1000 * summary->exceed.mean, worst,
                           summary->worst_year);
     if (length <= SHORT && !s->mean_shown)
@@ -322,19 +325,19 @@ static void append_reason(struct text *text, const struct ceduo_subject *s, size
         if (o->impossible)
             ceduo_text_append(text,
                               i < BRIEF ? _("more stems than a forest can hold: check the stand") : _("impossible stand"));
-        else if (o->answer == CEDUO_CANNOT_JUDGE)
+        else if (o->answer == CEDUO_JUDGEMENT_CANNOT_JUDGE)
             append_arrivals(text, s->bare);
         else if (!s->wooded && s->report->result->wooded)
             ceduo_text_append(text, _("not computed yet"));
-        else if (!s->wooded && o->answer != CEDUO_YES)
+        else if (!s->wooded && o->answer != CEDUO_JUDGEMENT_YES)
             ceduo_text_format(
                 text, i == FULL ? _("by the index %s of %s kJ remain on average") : _("by the index %s of %s kJ remain"),
                 remaining, mean);
         else if (scene->blocks_count > 0 && !isnan(o->rate.mean))
             append_rate(text, s, i);
-        else if (o->answer == CEDUO_YES && o->also_bare)
+        else if (o->answer == CEDUO_JUDGEMENT_YES && o->also_bare)
             append_shares(text, &bare, NULL, i);
-        else if (o->over_years && o->answer != CEDUO_UNANSWERED)
+        else if (o->over_years && o->answer != CEDUO_JUDGEMENT_UNANSWERED)
             append_years(text, s, i);
         else
             append_shares(text, s->wooded ? &s->today : &bare, ceduo_plot_has_stems(&scene->options[s->option]) ? &bare : NULL,
@@ -364,7 +367,7 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
         ceduo_text_append(&verdict, JUDGEMENT_MARK(o->answer));
     if (s->preliminary)
         ceduo_text_append(&verdict, _(" so far"));
-    if (o->answer == CEDUO_YES && o->also_bare)
+    if (o->answer == CEDUO_JUDGEMENT_YES && o->also_bare)
         ceduo_text_append(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
     if (s->report->result->scene->controls_count > 1) { /* name the control */

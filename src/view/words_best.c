@@ -3,8 +3,10 @@
 #include <math.h>
 
 #include "base/language.h"
+#include "core/runs/result.h"
 #include "report.h"
 #include "scene/choices.h"
+#include "scene/stand.h"
 #include "words.h"
 
 /* ---- compared years ---- */

@@ -3,7 +3,12 @@
 #include <math.h>
 
 #include "base/language.h"
+#include "core/runs/assess.h"
+#include "core/runs/pool.h"
+#include "core/runs/result.h"
+#include "core/runs/run.h"
 #include "report.h"
+#include "scene/derived.h"
 #include "words.h"
 
 /* Warn about rocks that leave over the upper end of the slope, and about stems that stop rocks just below the release, in
@@ -92,7 +97,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
     }
     warn_ground(result, sink, context);
     uint64_t unfinished = ceduo_result_unfinished(result);
-    if (unfinished > 0 && result->bare.ends.count[CEDUO_UNFINISHED] == 0)
+    if (unfinished > 0 && result->bare.ends.count[CEDUO_END_UNFINISHED] == 0)
         ceduo_words_format(sink, context,
                            ngettext("%llu rock had more than %d contacts or stems in the forest and counts as unfinished: "
                                     "check the rock's size and the stems per hectare.",

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Check calibrations on sites with known ground (quarry_site.h): 95 % ranges must contain the truth at 95 % of the sites, p must
- * be uniform, and a misfit must be reported for observations made by another law.
+/* Check calibrations on sites with known ground (quarry_site.h): 95 % ranges must contain the truth at 95 % of the sites, p
+ * must be uniform, and a misfit must be reported for observations made by another law.
  *
  *     bench_calibration [SITES [FIRST [ROCKS]]]
  *
@@ -8,6 +8,7 @@
  * crsp made the observations, chains stop at STEPS_MAX_CRSP steps: they rarely converge, and the misfit appears before. */
 #include <stdio.h>
 
+#include "ceduo/calibrate.h"
 #include "frame.h"
 #include "physics/quarry_site.h"
 
@@ -35,7 +36,7 @@ static void fit_site(size_t number, enum ceduo_law made_by, uint64_t observed, u
         printf(",%.4f,%.4f,%.4f,%d", truth[i], a.parameters[i].p2_5, a.parameters[i].p97_5, a.parameters[i].identified);
     printf("\n");
     fflush(stdout);
-    ceduo_calibration_free(&a);
+    ceduo_calibration_release(&a);
 }
 
 int main(int argc, char **argv)

@@ -10,6 +10,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
 #include "frame.h"
 
 #define ACCEPTED   100e3

@@ -14,6 +14,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
 #include "frame.h"
 
 enum { MEAN, P95, REACH, EXCEED, QUANTITIES };

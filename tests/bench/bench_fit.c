@@ -7,6 +7,7 @@
  * Prints CSV. processor_s is the sum over all threads; two idle cores need half of it. */
 #include <stdio.h>
 
+#include "ceduo/calibrate.h"
 #include "frame.h"
 #include "physics/quarry_site.h"
 
@@ -26,7 +27,7 @@ int main(int argc, char **argv)
                (unsigned long long)trial.rocks, (unsigned long long)a.evaluations, a.converged, a.effective_size,
                processor_s() - processor, ceduo_clock() - start);
         fflush(stdout);
-        ceduo_calibration_free(&a);
+        ceduo_calibration_release(&a);
     }
     return 0;
 }

@@ -10,7 +10,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/runs/run.h"
 #include "frame.h"
+#include "scene/derived.h"
 
 #define SLOWER_MAX    1.1
 #define FINE_METRES   1500

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/runs/run.h"
 #include "frame.h"
 #include "physics/line_scene.h"
 
@@ -71,7 +72,7 @@ int main(int argc, char **argv)
         meadow.segments[j].mu = ceduo_segment_default().mu;
         meadow.segments[j].roughness_m = 0.1;
     }
-    meadow.scene.rock.shape = CEDUO_ELLIPSOID;
+    meadow.scene.rock.shape = CEDUO_SHAPE_ELLIPSOID;
     for (int i = 0; i < 3; i++)
         meadow.scene.rock.axes[i] = ceduo_number(0.4 + 0.2 * i);
     puts("place,kernel,law,contacts_a_rock,ns_a_rock,ns_a_contact,rock_to_lumped,contact_to_lumped");

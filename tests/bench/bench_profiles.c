@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/runs/run.h"
 #include "frame.h"
 
 #define VERTICES_MAX 4000000

@@ -4,7 +4,10 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "ceduo/years.h"
+#include "core/runs/pool.h"
+#include "core/runs/result.h"
+#include "core/runs/run.h"
+#include "core/runs/year_runs.h"
 #include "frame.h"
 
 #define FIRST        1 /* years, from just after the cut to the end of the rotation */
@@ -32,7 +35,7 @@ static void simulate(const struct ceduo_scene *scene, unsigned threads, uint64_t
         ceduo_years_free(years);
     }
     *work = ceduo_pool_work(pool);
-    ceduo_simulated_free(&bare);
+    ceduo_simulated_release(&bare);
     ceduo_pool_free(pool);
 }
 

@@ -17,6 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "ceduo/simulate.h"
 #include "frame.h"
 
 #define ROCKS_MAX 1000000
@@ -132,7 +133,7 @@ int main(int argc, char **argv)
                  kind & 1 ? "height" : "angle");
         paper_site_init(&site);
         paper_site_read_theta(&site, kind & 1 ? PAPER_HEIGHT : PAPER_ANGLE);
-        site.scene.slope.facets = kind & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
+        site.scene.slope.facets = kind & 2 ? CEDUO_FACETS_BOTH : CEDUO_FACETS_AGAINST;
         site.scene.simulation.law = kind & 4 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
         for (size_t m = 0; m < sizeof modes / sizeof *modes; m++)
             compare(name, &site, modes[m].name, modes[m].mode, rocks);

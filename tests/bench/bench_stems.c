@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/runs/run.h"
 #include "frame.h"
 
 struct kind {
@@ -19,7 +20,7 @@ static void simulate(struct ceduo_scene scene, struct kind *k, uint64_t rocks, s
 {
     scene.simulation.contact_model = k->model;
     struct ceduo_run_def def = ceduo_run_def_default(&scene);
-    def.option = k->model == CEDUO_INDEX ? NULL : &scene.options[0];
+    def.option = k->model == CEDUO_CONTACT_MODEL_INDEX ? NULL : &scene.options[0];
     def.rocks_max = rocks;
     double start = ceduo_clock();
     struct ceduo_run *run = simulate_run(&def, rocks);
@@ -33,7 +34,8 @@ static void measure(const char *path, size_t repeats, uint64_t rocks)
 {
     struct scene_file file;
     read_scene(&file, path);
-    struct kind kinds[] = {{.label = "bare", .model = CEDUO_INDEX}, {.label = "stems", .model = CEDUO_STEMS}};
+    struct kind kinds[] = {{.label = "bare", .model = CEDUO_CONTACT_MODEL_INDEX},
+                           {.label = "stems", .model = CEDUO_CONTACT_MODEL_STEMS}};
     size_t n = sizeof kinds / sizeof kinds[0];
     for (size_t r = 0; r < repeats; r++)
         for (size_t k = 0; k < n; k++)

@@ -17,6 +17,7 @@
 
 #include "core/walk/landing.h"
 #include "frame.h"
+#include "scene/slope.h"
 
 #define STEPS_MAX 100000000
 #define MISSED    1.0 /* m */

@@ -18,6 +18,7 @@
 
 #include "frame.h"
 #include "physics/stops.h"
+#include "study/observe.h"
 
 #define BLOCKS     3
 #define VALUES     4

@@ -4,7 +4,6 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "ceduo/uncertainty.h"
 #include "frame.h"
 #include "io/scene_file.h"
 
@@ -17,7 +16,8 @@ static void measure(const char *path, bool rotation, double goal, size_t repeats
     read_scene(&file, path);
     if (!ceduo_inputs_collect(&file, &inputs))
         fail("no memory");
-    const struct ceduo_uncertainty_def def = {.scene = &file.scene,
+    const struct ceduo_uncertainty_def def = {.size = sizeof(struct ceduo_uncertainty_def),
+                                              .scene = &file.scene,
                                               .inputs_count = inputs.n,
                                               .inputs = inputs.items,
                                               .points = points,
@@ -33,7 +33,7 @@ static void measure(const char *path, bool rotation, double goal, size_t repeats
             fail("the sensitivity failed");
         timing_end(&t, r);
         evaluations = answer.evaluations;
-        ceduo_uncertainty_free(&answer);
+        ceduo_uncertainty_release(&answer);
     }
     printf("%s,%s,%zu,%zu,%" PRIu64 ",%u,%" PRIu64 ",%.3f,%.3f,%g\n", path, rotation ? "rotation" : "today", inputs.n, points,
            rocks, threads, evaluations, median(t.seconds, repeats), median(t.busy, repeats), goal);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Compare the error of a sensitivity analysis per processor time: the surface through Sobol' points (ceduo/surface.h) and the
+/* Compare the error of a sensitivity analysis per processor time: the surface through Sobol' points (study/surface.h) and the
  * usual design, which redraws one input at a time (Saltelli et al. 2010, totals estimated as by Jansen 1999). The truth comes
  * from the usual design with many points and rocks.
  *
@@ -13,10 +13,12 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "ceduo/statistics.h"
+#include "core/runs/statistics.h"
 #include "frame.h"
 #include "io/scene_file.h"
+#include "scene/derived.h"
 #include "study/points.h"
+#include "study/surface.h"
 
 #define INPUTS_MAX      20 /* twice the columns, at most the 40 of a point */
 #define THREADS         2
@@ -38,7 +40,8 @@ static struct scene_inputs inputs;
 
 static void measure_surface(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
 {
-    const struct ceduo_uncertainty_def def = {.scene = &file.scene,
+    const struct ceduo_uncertainty_def def = {.size = sizeof(struct ceduo_uncertainty_def),
+                                              .scene = &file.scene,
                                               .inputs_count = inputs.n,
                                               .inputs = inputs.items,
                                               .points = points,
@@ -59,7 +62,7 @@ static void measure_surface(size_t points, uint64_t rocks, uint64_t seed, struct
         found->totals[i] = f->fit.total[i].value;
         found->totals_se[i] = f->fit.total[i].se;
     }
-    ceduo_uncertainty_free(&answer);
+    ceduo_uncertainty_release(&answer);
 }
 
 /* ---- usual design ---- */
@@ -91,8 +94,12 @@ static void fill_rows(size_t n, uint64_t seed, double *u)
 static void run_rows(const double *u, size_t rows, uint64_t rocks, uint64_t seed, double *y)
 {
     file.scene.simulation.seed = seed;
-    const struct ceduo_uncertainty_def def = {
-        .scene = &file.scene, .inputs = inputs.items, .inputs_count = inputs.n, .rocks = rocks, .threads = THREADS};
+    const struct ceduo_uncertainty_def def = {.size = sizeof(struct ceduo_uncertainty_def),
+                                              .scene = &file.scene,
+                                              .inputs = inputs.items,
+                                              .inputs_count = inputs.n,
+                                              .rocks = rocks,
+                                              .threads = THREADS};
     const struct points points = {.def = &def, .u = u, .today = true, .read = read_value, .context = y};
     if (ceduo_points_run(&points, 0, rows, 0) != CEDUO_OK)
         fail("the sensitivity failed");

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "ceduo/request.h"
 #include "frame.h"
 #include "study/verdict.h"
 

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 
+#include "core/runs/run.h"
 #include "frame.h"
 
 #define MANY_ROCKS 1000000

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "frame.h"
+#include "ceduo/simulate.h"
+#include "core/runs/run.h"
+#include "scene/rock.h"
 
 #include <errno.h>
 #include <math.h>

@@ -11,21 +11,22 @@ import threading
 
 from harness import FULL, PROFILES, ROOT, SANITIZED, Skip, ceduo, expect, expect_equal, expect_in, expect_near, run_all
 
-LIBRARY = ROOT / os.environ.get("BUILD", "build/release") / "libceduo.so.0"
+LIBRARY = ROOT / os.environ.get("BUILD", "build/release") / "libceduo.so"
 SHARE = "options[0].controls[0].wooded.reach_probability"
 
 
-def restart_with_runtime():
-    """A sanitized library needs its runtime before all others."""
-    name = "libasan.so" if b"__asan_init" in LIBRARY.read_bytes() else "libtsan.so"
-    runtime = subprocess.run([os.environ.get("CC", "cc"), f"-print-file-name={name}"], capture_output=True, text=True, check=True)
-    os.environ.update(LD_PRELOAD=runtime.stdout.strip(), ASAN_OPTIONS="detect_leaks=0", TSAN_OPTIONS="report_bugs=1")
+def restart():
+    """Let the loader find the library by its name. A sanitized library needs its runtime before all others."""
+    os.environ["LD_LIBRARY_PATH"] = str(LIBRARY.parent)
+    if SANITIZED:
+        name = "libasan.so" if b"__asan_init" in LIBRARY.read_bytes() else "libtsan.so"
+        runtime = subprocess.run([os.environ.get("CC", "cc"), f"-print-file-name={name}"], capture_output=True, text=True, check=True)
+        os.environ.update(LD_PRELOAD=runtime.stdout.strip(), ASAN_OPTIONS="detect_leaks=0", TSAN_OPTIONS="report_bugs=1")
     os.execv(sys.executable, [sys.executable, *sys.argv])
 
 
-if SANITIZED and "LD_PRELOAD" not in os.environ:
-    restart_with_runtime()
-ctypes.CDLL(str(LIBRARY))  # the example then finds it by its name
+if os.environ.get("LD_LIBRARY_PATH") != str(LIBRARY.parent):
+    restart()
 sys.path.insert(0, str(ROOT / "man/examples"))
 import ceduo as door  # noqa: E402  pylint: disable=wrong-import-position
 

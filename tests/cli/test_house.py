@@ -19,9 +19,7 @@ KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene
 # The folders of core likewise.
 CORE = {"stand": "", "forest": "stand", "walk": "stand forest", "runs": "stand forest walk"}
 # Room of each public header; a header can include whatever its room can.
-HEADERS = {"base": "flag", "scene": "rock scene slope stand status",
-           "core": "adc alternative_law assess blocks fence hazard key pool record request result rotation run statistics trajectory variants years yield",
-           "study": "calibrate uncertainty find naslund observe surface survey", "io": "read", "api": "ceduo handle"}
+HEADERS = {"scene": "scene", "core": "simulate years", "study": "uncertainty calibrate survey", "api": "ceduo handle"}
 SCIENCE = ("scene", "core")  # uses nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
 # A rock is the same on every machine: code that decides its trajectory, or a year's stand, uses only functions
@@ -188,7 +186,9 @@ def structs_without_default():
     """Return structs of the headers that a caller fills, without a function that returns a default."""
     text = "".join(p.read_text(encoding="utf-8") for p in sorted((ROOT / "include/ceduo").glob("*.h")))
     structs = re.findall(r"^struct (ceduo_(?:\w+_def|request|input|observation)) {", text, re.M)
-    return [name for name in structs if not re.search(rf"^struct {name} {name}_default\(", text, re.M)]
+    defaults = [name for name in structs if re.search(rf"^struct {name} {name}_default\(", text, re.M)]
+    members = "".join(re.search(rf"^struct {name} {{.*?^}};", text, re.M | re.S)[0] for name in defaults)
+    return [name for name in structs if name not in defaults and f"    struct {name} " not in members]
 
 
 READS = re.compile(r"(->|\.)((released|reached|exceeded|unfinished|missed|translation|energy_per_released|fence->(above|enough|defeated)|topography|hazard)\b|"

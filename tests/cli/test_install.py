@@ -15,6 +15,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import PATIENCE, ROOT, Folder, Skip, ceduo, environment, expect, expect_equal, expect_in, good, run_all  # noqa: E402
 
+SONAME = re.search(r"^SONAME := (\S+)", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M)[1]
 VARIANT = Path(os.environ.get("BUILD", "build/release")).name
 
 
@@ -51,7 +52,7 @@ def test_install():
         expect({"bin/ceduo", "share/man/man1/ceduo.1", "share/man/man7/ceduo-model.7", "share/ceduo/scenes/paper-site.yaml",
                 "share/bash-completion/completions/ceduo", "share/zsh/site-functions/_ceduo", "share/man/man3/ceduo.3",
                 "share/locale/it/LC_MESSAGES/ceduo.mo",
-                "share/man/it/man1/ceduo.1", "share/man/it/man7/ceduo-workflows.7", "lib/libceduo.a", "lib/libceduo.so", "lib/libceduo.so.0", "lib/pkgconfig/ceduo.pc", "include/ceduo/ceduo.h"} <= names, names)
+                "share/man/it/man1/ceduo.1", "share/man/it/man7/ceduo-workflows.7", "lib/libceduo.a", "lib/libceduo.so", f"lib/{SONAME}", "lib/pkgconfig/ceduo.pc", "include/ceduo/ceduo.h"} <= names, names)
         shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").rglob("*.[1357]")]
         shipped += [*(ROOT / "profiles/jobs").iterdir(), *(ROOT / "profiles/surveys").iterdir(), *(ROOT / "profiles/observed").iterdir(),
                     *(p for p in (ROOT / "profiles/region").iterdir() if p.is_file() and p.suffix != ".yaml"),

@@ -11,6 +11,7 @@
 #include "io/bind.h"
 #include "io/csv.h"
 #include "io/survey_file.h"
+#include "scene/stand.h"
 
 /* Check that a scene can use the stand of a survey. */
 static void check_stand(struct arena *arena, const struct survey_file *survey, struct problems *problems)

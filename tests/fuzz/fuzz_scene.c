@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/pool.h"
+#include "core/runs/pool.h"
+#include "core/runs/run.h"
 #include "fuzz.h"
 #include "io/scene_file.h"
 

@@ -8,7 +8,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "ceduo/observe.h"
 #include "fuzz.h"
 #include "io/scene_file.h"
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "memory/failing.h"
+#include "ceduo/scene.h"
 
 #include <errno.h>
 #include <execinfo.h>

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
 /* Runs and results built on them, without memory. */
+#include "core/runs/pool.h"
+#include "core/runs/result.h"
+#include "core/runs/run.h"
+#include "core/runs/year_runs.h"
 #include "local.h"
 #include "memory/failing.h"
+#include "study/surface.h"
 
 #include <math.h>
 
-#include "ceduo/record.h"
-#include "ceduo/uncertainty.h"
 #include "physics/paper_site.h"
 #include "study/inputs.h"
 #include "study/reliability.h"
@@ -89,13 +92,13 @@ static struct ceduo_run_def make_def(bool wood)
 
 static bool simulate_bare(void)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     return simulate(make_def(false));
 }
 
 static bool simulate_scalar_forest(void)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_CRSP);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_CRSP);
     site.plots[0].shoots.dbh_sd = 0.02;
     return simulate(make_def(true));
 }
@@ -107,7 +110,7 @@ static bool simulate_profile(size_t vertices)
     static double x[VERTICES_MAX], z[VERTICES_MAX];
     static struct ceduo_segment segments[VERTICES_MAX - 1];
     double metres = 156 / (double)(vertices - 1);
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     for (size_t i = 0; i < vertices; i++) {
         x[i] = metres * (double)i;
         z[i] = metres * (-0.75 * (double)i + 0.25 * (double)(i % 2));
@@ -164,7 +167,7 @@ static void add_arrivals(const struct ceduo_arrivals *arrivals)
 /* Two options, one cut in the second of the years, and blocks of several sizes. */
 static bool answer_options(void)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_option options[2] = {site.option, {.name = NULL}};
     site.scene.options = options;
     site.scene.options_count = 2;
@@ -208,14 +211,14 @@ static bool answer_block_years(void)
 {
     static double volumes[] = {0.05, 1};
     struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     site.control.fence = (struct ceduo_fence){.height = 2, .energy = 100e3};
     site.scene.blocks = &blocks;
     site.scene.blocks_count = 1;
     struct ceduo_run_def def = make_def(false);
     LOCAL(ceduo_pool, pool) = NULL;
     LOCAL(ceduo_years, years) = NULL;
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = {0};
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare = {0};
     struct ceduo_run *run;
     enum ceduo_status status = ceduo_pool_create(&def, &pool);
     if (status == CEDUO_OK)
@@ -256,7 +259,7 @@ static bool answer_request(struct ceduo_request q)
 /* Each year with independent rocks. */
 static bool answer_independent_years(void)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_request q = ceduo_request_default(&site.scene);
     q.years = true;
     q.window = (struct ceduo_window){.last = 2, .step = 1};
@@ -268,7 +271,7 @@ static bool answer_independent_years(void)
 /* Under both energy laws. */
 static bool answer_both_laws(void)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_control controls[2] = {site.control, site.control}; /* both at one place */
     site.scene.controls = controls;
     site.scene.controls_count = 2;
@@ -285,9 +288,14 @@ static const struct ceduo_input inputs[2] = {
 /* Uncertain inputs of the site, with n points and rocks. */
 static struct ceduo_uncertainty_def uncertainty_def(size_t points, uint64_t rocks)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    return (struct ceduo_uncertainty_def){
-        .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = points, .rocks = rocks, .threads = 2};
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
+    return (struct ceduo_uncertainty_def){.size = sizeof(struct ceduo_uncertainty_def),
+                                          .scene = &site.scene,
+                                          .inputs_count = 2,
+                                          .inputs = inputs,
+                                          .points = points,
+                                          .rocks = rocks,
+                                          .threads = 2};
 }
 
 static enum ceduo_status ask_uncertainty(struct ceduo_uncertainty_def def)
@@ -297,7 +305,7 @@ static enum ceduo_status ask_uncertainty(struct ceduo_uncertainty_def def)
     if (status == CEDUO_OK) {
         add(&answer.figures[CEDUO_UNCERTAINTY_ENERGY].fit.p50, sizeof answer.figures[CEDUO_UNCERTAINTY_ENERGY].fit.p50);
         add(answer.orders, answer.orders_count * sizeof answer.orders[0]);
-        ceduo_uncertainty_free(&answer);
+        ceduo_uncertainty_release(&answer);
     }
     return status;
 }
@@ -325,7 +333,7 @@ static bool sure(void)
     struct reliability_result answer = {.above = 0};
     const struct reliability_def def = {
         .uncertainty = uncertainty_def(8, 16), .goal = CEDUO_GOAL_ARRIVE, .target = .5, .sure = .9};
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     enum ceduo_status status = ceduo_reliability_compute(&def, &answer);
     if (status == CEDUO_OK)
         add(&answer.above, sizeof answer.above);
@@ -413,7 +421,7 @@ static bool copy_belts(void)
     enum { MANY = 300 };
     static struct ceduo_belt belts[MANY];
     LOCAL_BY(ceduo_inputs_release) struct input_scene copy;
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     for (size_t i = 0; i < MANY; i++)
         belts[i] = site.belts[0];
     site.option.belts = belts;
@@ -430,13 +438,13 @@ static bool copy_belts(void)
 
 static bool answer_by_index(void)
 {
-    init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_INDEX, CEDUO_LAW_LUMPED);
     return answer_request(ceduo_request_default(&site.scene));
 }
 
 static bool answer_one_option(void)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_request q = ceduo_request_default(&site.scene);
     q.only = 0;
     return answer_request(q);
@@ -445,7 +453,7 @@ static bool answer_one_option(void)
 /* Assess the scene that was read. */
 static bool assess(void)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     static struct ceduo_arrivals bare = {.released = 10, .reached = 10}, wooded = {.released = 10, .reached = 4};
     const struct ceduo_simulated flown[2] = {{.rocks = 10, .controls = 1, .arrivals = &bare},
                                              {.rocks = 10, .controls = 1, .arrivals = &wooded}};
@@ -465,7 +473,7 @@ static bool assess(void)
 /* Assess it by the index alone, without rocks among stems. */
 static bool assess_index(void)
 {
-    init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_INDEX, CEDUO_LAW_LUMPED);
     static struct ceduo_arrivals bare = {.released = 10, .reached = 10};
     const struct ceduo_simulated flown = {.rocks = 10, .controls = 1, .arrivals = &bare};
     LOCAL(ceduo_result, result);
@@ -480,7 +488,7 @@ static bool assess_index(void)
 /* A rock rolls from stools of one shoot to stools of many, so that the buffer of shoots grows during the roll. */
 static void make_roll(void)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     site.scene.slope.vertices = 2;
     site.x[1] = 160;
     site.z[1] = site.z[0] - 80;
@@ -509,7 +517,7 @@ static bool follow_roll(void)
     struct ceduo_trajectory trajectory;
     bool done = follow_seventh(&trajectory);
     if (done) {
-        assert_true(trajectory.end == CEDUO_LEFT_SLOPE && trajectory.stems_hit > 100);
+        assert_true(trajectory.end == CEDUO_END_LEFT_SLOPE && trajectory.stems_hit > 100);
         add(&trajectory.stems_hit, sizeof trajectory.stems_hit);
     }
     return done;
@@ -521,7 +529,9 @@ static bool record_roll(void)
     make_roll();
     LOCAL_BY(ceduo_record_release) struct ceduo_record record;
     enum ceduo_status status = ceduo_record(
-        &(struct ceduo_record_def){.scene = &site.scene, .option = &site.option, .rocks = 1, .blows = true}, &record);
+        &(struct ceduo_record_def){
+            .size = sizeof(struct ceduo_record_def), .scene = &site.scene, .option = &site.option, .rocks = 1, .blows = true},
+        &record);
     if (is_done(status)) {
         assert_true(record.blows_count > 100);
         add(&record.blows_count, sizeof record.blows_count);
@@ -531,14 +541,14 @@ static bool record_roll(void)
 
 static bool follow_one(void)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_trajectory trajectory;
     return follow_seventh(&trajectory);
 }
 
 static bool follow(void)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     LOCAL(ceduo_tracer, f) = ceduo_tracer_create(&site.scene, &site.option);
     bool good = f;
     for (uint64_t rock = 0; rock < 3 && good; rock++) {
@@ -572,7 +582,7 @@ static bool see(void)
 
 TEST(views_of_runs)
 {
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.rocks_max = 40;
     assert_int_equal(ceduo_pool_create(&def, &viewed), CEDUO_OK);
@@ -591,7 +601,7 @@ static enum ceduo_status falls(void *context, double value, double *goal)
 
 static bool find(void)
 {
-    const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 0.3, .goal = falls};
+    const struct ceduo_find_def def = {.size = sizeof(struct ceduo_find_def), .lo = 1, .hi = 9, .target = 0.3, .goal = falls};
     struct ceduo_found f;
     bool done = is_done(ceduo_find(&def, &f));
     if (done)

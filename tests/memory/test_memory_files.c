@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
 /* Files and documents without memory. */
+#include "core/runs/key.h"
 #include "local.h"
 #include "memory/failing.h"
 
@@ -11,7 +12,6 @@
 #include <unistd.h>
 
 #include "base/oom.h"
-#include "ceduo/key.h"
 #include "folder.h"
 #include "io/file.h"
 #include "io/scene_file.h"

@@ -3,13 +3,13 @@
 /* Runs with block sizes, observations, fits and surveys, without memory. */
 #include "local.h"
 #include "memory/failing.h"
+#include "study/observe.h"
+#include "study/predict.h"
 
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-#include "ceduo/calibrate.h"
 #include "ceduo/ceduo.h"
-#include "ceduo/survey.h"
 #include "study/chains.h"
 #include "study/surrogate.h"
 #include "unit/ground.h"
@@ -175,7 +175,7 @@ static enum ceduo_status fit_speed(const struct ceduo_input *input, double x, st
     if (status == CEDUO_OK) {
         add(&a.parameters[0].best, sizeof a.parameters[0].best);
         add(&a.predicted[0].at_best.deviance, sizeof a.predicted[0].at_best.deviance);
-        ceduo_calibration_free(&a);
+        ceduo_calibration_release(&a);
     }
     return status;
 }
@@ -188,9 +188,12 @@ static enum ceduo_status fit_one_round(unsigned threads, uint64_t rocks, void (*
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 9, .places_count = 1, .places = &place};
     counted_stage = stage;
     begin_progress(callback, at);
-    return fit_speed(
-        &input, 1,
-        (struct ceduo_calibration_def){.scenes_count = 1, .rocks = rocks, .threads = threads, .progress = count_stage});
+    return fit_speed(&input, 1,
+                     (struct ceduo_calibration_def){.size = sizeof(struct ceduo_calibration_def),
+                                                    .scenes_count = 1,
+                                                    .rocks = rocks,
+                                                    .threads = threads,
+                                                    .progress = count_stage});
 }
 
 /* Fit one value to two scenes. Nearly all releases lie beyond the observed place, and take no time. */
@@ -198,15 +201,19 @@ static bool fit_two_scenes(void)
 {
     static const char *const place = "release.x_m";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
-    return is_done(fit_speed(&input, 20, (struct ceduo_calibration_def){.scenes_count = 2, .rocks = 1, .threads = 1}));
+    return is_done(fit_speed(&input, 20,
+                             (struct ceduo_calibration_def){
+                                 .size = sizeof(struct ceduo_calibration_def), .scenes_count = 2, .rocks = 1, .threads = 1}));
 }
 
 static bool fit_on_many_threads(void)
 {
     static const char *const place = "release.x_m";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
-    return is_done(
-        fit_speed(&input, 20, (struct ceduo_calibration_def){.scenes_count = 1, .rocks = 1, .threads = CEDUO_THREADS_MAX}));
+    return is_done(fit_speed(
+        &input, 20,
+        (struct ceduo_calibration_def){
+            .size = sizeof(struct ceduo_calibration_def), .scenes_count = 1, .rocks = 1, .threads = CEDUO_THREADS_MAX}));
 }
 
 /* The state of CEDUO_THREADS_MAX workers is an allocation of its own. */
@@ -220,7 +227,7 @@ TEST(workers_of_a_fit)
  * busy while it waits. */
 TEST(one_progress_call_at_a_time)
 {
-    assert_int_equal(fit_one_round(2, 1000, wait_for_other_threads, CEDUO_SEARCH, 1), CEDUO_OK);
+    assert_int_equal(fit_one_round(2, 1000, wait_for_other_threads, CEDUO_CALIBRATION_STAGE_SEARCH, 1), CEDUO_OK);
     assert_int_equal(progress_calls.inside_max, 1);
     assert_true(progress_calls.times > 1);
 }
@@ -228,7 +235,7 @@ TEST(one_progress_call_at_a_time)
 /* If memory fails in one thread, the other one ends, too: few of 256 points are evaluated. */
 TEST(one_thread_ends_all)
 {
-    assert_int_equal(fit_one_round(2, 1, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
+    assert_int_equal(fit_one_round(2, 1, fail_others, CEDUO_CALIBRATION_STAGE_SEARCH, 1), CEDUO_NO_MEMORY);
     assert_true(progress_calls.times < 100);
 }
 
@@ -241,7 +248,7 @@ static void fail_to_grow(void)
 
 static bool fit_that_cannot_grow(void)
 {
-    return is_done(fit_one_round(1, 1, fail_to_grow, CEDUO_SEARCH, 256));
+    return is_done(fit_one_round(1, 1, fail_to_grow, CEDUO_CALIBRATION_STAGE_SEARCH, 256));
 }
 
 /* Memory fails for the points of the chains, and for the surrogate trained on them and all points before. */
@@ -326,10 +333,10 @@ static bool compute_survey(void)
                                               .spacing = 0.3,
                                               .energy = NAN};
     const struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 1, .stems_count = 8, .stems = stems};
-    LOCAL_BY(ceduo_survey_free) struct ceduo_survey_result answer;
+    LOCAL_BY(ceduo_survey_release) struct ceduo_survey_result answer;
     enum ceduo_status status = ceduo_survey_compute(&s, &answer);
     if (status == CEDUO_OK) {
-        assert_int_equal(answer.shoots.from, CEDUO_HEIGHTS_CURVE);
+        assert_int_equal(answer.shoots.from, CEDUO_SURVEY_HEIGHTS_CURVE);
         for (size_t i = 0; i < answer.classes_count; i++)
             add(&answer.classes[i].height, sizeof answer.classes[i].height);
     } else {

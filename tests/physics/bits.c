@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "ceduo/ceduo.h"
+#include "core/runs/run.h"
 #include "physics/paper_site.h"
 
 static void show(const char *label, const struct ceduo_distribution *d)
@@ -19,7 +20,7 @@ int main(int argc, char **argv)
         paper_site_init(&site);
         site.scene.simulation.law = (enum ceduo_law)(kind / 2);
         site.scene.simulation.friction_bound = kind & 1;
-        site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
+        site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_SPREAD_NORMAL};
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
         def.threads = threads;
         def.rocks_max = 10000;

@@ -6,8 +6,11 @@
 #include <stdlib.h>
 
 #include "ceduo/ceduo.h"
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
 #include "physics/line_scene.h"
 #include "physics/paper_site.h"
+#include "scene/slope.h"
 
 #define VERTICES 20000
 

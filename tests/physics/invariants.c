@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "invariants.h"
+#include "ceduo/simulate.h"
+#include "scene/rock.h"
+#include "scene/slope.h"
 
 #include <math.h>
 #include <string.h>
@@ -250,10 +253,10 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     expect_number(number, "metres below the ground:", w.under, fmax(UNDER, UNDER_SIZE * w.size));
     expect_crossing(number, &crossing);
     double end = s->x[s->scene.slope.vertices - 1];
-    if (trajectory.end == CEDUO_LEFT_SLOPE && trajectory.x != 0 && trajectory.x != end)
+    if (trajectory.end == CEDUO_END_LEFT_SLOPE && trajectory.x != 0 && trajectory.x != end)
         fail_msg("scene %ju: left the slope at %g", (uintmax_t)number, trajectory.x);
-    bool crack = trajectory.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MAX / 2;
-    if (trajectory.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack && !is_creeping(&w))
+    bool crack = trajectory.end == CEDUO_END_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MAX / 2;
+    if (trajectory.end == CEDUO_END_UNFINISHED && !line_scene_lasts(s) && !crack && !is_creeping(&w))
         fail_msg("scene %ju: unfinished", (uintmax_t)number);
     tally->last = trajectory;
     tally->ends[trajectory.end]++;

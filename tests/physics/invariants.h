@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "ceduo/simulate.h"
 #include "line_scene.h"
 
 /* Totals over many scenes. */

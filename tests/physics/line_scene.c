@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "line_scene.h"
+#include "ceduo/simulate.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,10 +21,11 @@ void line_scene_init(struct line_scene *s, size_t vertices, const double *x, con
                                                 .roughness_rad = NAN,
                                                 .friction = ground.friction};
     struct ceduo_scene *scene = &s->scene;
+    scene->size = sizeof *scene;
     scene->rock = ceduo_scene_default().rock;
     scene->rock.diameter = ceduo_number(2 * radius);
-    scene->slope =
-        (struct ceduo_slope){.facets = CEDUO_AGAINST, .vertices = vertices, .x = s->x, .z = s->z, .segments = s->segments};
+    scene->slope = (struct ceduo_slope){
+        .facets = CEDUO_FACETS_AGAINST, .vertices = vertices, .x = s->x, .z = s->z, .segments = s->segments};
     scene->controls = &s->control;
     scene->options = &s->option;
     scene->options_count = 1;
@@ -54,7 +56,7 @@ void line_scene_drop(struct line_scene *s, double radius, double accepted)
 
 struct ceduo_slope slope_new(size_t vertices)
 {
-    struct ceduo_slope s = {.facets = CEDUO_AGAINST, .vertices = vertices};
+    struct ceduo_slope s = {.facets = CEDUO_FACETS_AGAINST, .vertices = vertices};
     s.x = malloc(vertices * sizeof *s.x);
     s.z = malloc(vertices * sizeof *s.z);
     s.segments = malloc(vertices * sizeof *s.segments);
@@ -216,7 +218,7 @@ void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_e
     line_scene_init(s, 0, s->x, s->z, (struct line_ground){0}, radius, line_chance(r, 0.5) ? CEDUO_LAW_LUMPED : CEDUO_LAW_CRSP);
     struct ceduo_scene *scene = &s->scene;
     scene->slope.vertices = random_profile(s, r);
-    scene->slope.facets = line_chance(r, 0.5) ? CEDUO_AGAINST : CEDUO_BOTH;
+    scene->slope.facets = line_chance(r, 0.5) ? CEDUO_FACETS_AGAINST : CEDUO_FACETS_BOTH;
     scene->simulation.scale_rn = line_chance(r, 0.2);
     scene->simulation.seed = number;
     scene->simulation.gravity = line_chance(r, 0.8) ? CEDUO_GRAVITY : line_log_uniform(r, 1, 30);
@@ -240,7 +242,7 @@ void line_scene_arm(struct line_scene *s, uint64_t number)
     struct ceduo_rock_def *rock = &s->scene.rock;
     double size = rock->diameter.mean;
     s->scene.simulation.law = CEDUO_LAW_ARM;
-    rock->shape = line_chance(r, 0.2) ? CEDUO_SPHERE : line_chance(r, 0.5) ? CEDUO_ELLIPSOID : CEDUO_CYLINDER;
+    rock->shape = line_chance(r, 0.2) ? CEDUO_SHAPE_SPHERE : line_chance(r, 0.5) ? CEDUO_SHAPE_ELLIPSOID : CEDUO_SHAPE_CYLINDER;
     rock->height = ceduo_number(size * line_uniform(r, 0.3, 3));
     for (int i = 0; i < 3; i++)
         rock->axes[i] = ceduo_number(size * line_uniform(r, 0.4, 2));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "paper_site.h"
+#include "ceduo/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,7 +28,7 @@ void paper_plot_init(struct paper_plot *plot, int number)
     plot->shoots = plot->trees = mean;
     plot->shoots.per_ha = all - single;
     plot->trees.per_ha = single;
-    plot->stand = (struct ceduo_stand){.system = CEDUO_SIMPLE_COPPICE,
+    plot->stand = (struct ceduo_stand){.system = CEDUO_SYSTEM_SIMPLE_COPPICE,
                                        .species = ceduo_species_find("ostrya-carpinifolia"),
                                        .stools_per_ha = one ? 3688 : 2807,
                                        .spacing = 0.5,
@@ -35,7 +36,7 @@ void paper_plot_init(struct paper_plot *plot, int number)
                                        .trees_count = 1,
                                        .shoots = &plot->shoots,
                                        .trees = &plot->trees,
-                                       .energy = CEDUO_BRAUNER,
+                                       .energy = CEDUO_ENERGY_MODEL_BRAUNER,
                                        .u = PAPER_U,
                                        .fracture_ratio = 1};
 }
@@ -48,7 +49,7 @@ struct ceduo_stems paper_stems(double per_ha, double dbh, double height)
 struct ceduo_stand paper_coppice(struct ceduo_stems *shoots, struct ceduo_stems *trees, size_t trees_count, unsigned rotation,
                                  double *stay)
 {
-    return (struct ceduo_stand){.system = CEDUO_SIMPLE_COPPICE,
+    return (struct ceduo_stand){.system = CEDUO_SYSTEM_SIMPLE_COPPICE,
                                 .species = ceduo_species_find("ostrya-carpinifolia"),
                                 .stools_per_ha = 2500,
                                 .spacing = .35,
@@ -72,7 +73,7 @@ static void init_slope(struct paper_site *site)
         site->segments[j] = (struct ceduo_segment){.rn = ceduo_number(j < 2 ? first_rn[j] : 0.31),
                                                    .rt = ceduo_number(j < 2 ? first_rt[j] : 0.83),
                                                    .friction = ceduo_segment_default().friction};
-    site->scene.slope = (struct ceduo_slope){.facets = CEDUO_AGAINST,
+    site->scene.slope = (struct ceduo_slope){.facets = CEDUO_FACETS_AGAINST,
                                              .vertices = PAPER_VERTICES,
                                              .x = site->x,
                                              .z = site->z,
@@ -97,8 +98,9 @@ void paper_site_init(struct paper_site *site)
 {
     memset(site, 0, sizeof *site);
     struct ceduo_scene *scene = &site->scene;
+    scene->size = sizeof *scene;
     scene->rock = ceduo_scene_default().rock;
-    scene->rock.shape = CEDUO_CYLINDER;
+    scene->rock.shape = CEDUO_SHAPE_CYLINDER;
     scene->rock.diameter = ceduo_number(0.56);
     scene->rock.height = ceduo_number(0.80);
     scene->release.vx = ceduo_number(0.3);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plane_map.h"
+#include "ceduo/scene.h"
 
 #include <gsl/gsl_randist.h>
 #include <math.h>

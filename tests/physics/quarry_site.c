@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "quarry_site.h"
+#include "study/observe.h"
+#include "study/predict.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
@@ -45,7 +47,7 @@ static void make_site(struct quarry_site *s, enum ceduo_law law, const double *t
                                                 .friction = truth[3]};
     s->scene.slope = (struct ceduo_slope){
         .vertices = QUARRY_VERTICES, .x = s->x, .z = s->z, .segments = s->segments, .segments_given = QUARRY_VERTICES - 1};
-    s->scene.rock.shape = CEDUO_SPHERE;
+    s->scene.rock.shape = CEDUO_SHAPE_SPHERE;
     s->scene.rock.diameter = ceduo_number(0.8);
     s->scene.rock.density = ceduo_number(2600);
     s->scene.release.height = ceduo_number(2);
@@ -89,7 +91,8 @@ static bool fit(struct quarry_site *s, const struct ceduo_observation *observed,
                 struct ceduo_calibration *answer)
 {
     struct ceduo_calibration_scene scene = {&s->scene, s->inputs, trial->kinds, observed};
-    struct ceduo_calibration_def def = {.scenes_count = 1,
+    struct ceduo_calibration_def def = {.size = sizeof def,
+                                        .scenes_count = 1,
                                         .scenes = &scene,
                                         .parameters_count = trial->values,
                                         .rocks = trial->rocks,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef QUARRY_SITE_H
-#define QUARRY_SITE_H
 
 #include "ceduo/calibrate.h"
+#ifndef QUARRY_SITE_H
+#define QUARRY_SITE_H
 
 /* A site with known ground, because ceduo makes its observations: a quarry face, its scree and the level ground below. Its
  * values are drawn within their bounds. Some rocks are released; their stops and passages are observed, and the values fitted

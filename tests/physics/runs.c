@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "runs.h"
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -128,7 +130,7 @@ struct followed expect_as_followed(struct ceduo_run_def def, uint64_t rocks)
     assert_int_equal(ceduo_run_contacts(run), all);
     EXPECT_SAME(sum, counts, drawn, hit, met);
     EXPECT_IS(a, (reached, found.reached), (unfinished, found.bad));
-    assert_int_equal(read_ends(run).count[CEDUO_UNFINISHED], found.bad);
+    assert_int_equal(read_ends(run).count[CEDUO_END_UNFINISHED], found.bad);
     if (def.option) {
         EXPECT_NEAR(a.contacts.mean, contacts.mean, 1e-12 * contacts.mean);
         EXPECT_NEAR(a.contacts.se, ceduo_moments_se(&contacts), 1e-9 * a.contacts.se);

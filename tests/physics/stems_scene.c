@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "stems_scene.h"
+#include "ceduo/simulate.h"
 
 #include "expect.h"
 
@@ -33,7 +34,7 @@ struct ceduo_belt *plant_belt(double from, double to, double stools, double spac
                                                    .spacing = spacing,
                                                    .shoots = plane.shoots[i],
                                                    .trees = plane.trees[i],
-                                                   .energy = CEDUO_BRAUNER,
+                                                   .energy = CEDUO_ENERGY_MODEL_BRAUNER,
                                                    .u = 1,
                                                    .fracture_ratio = 1}};
     return &plane.belts[i];
@@ -145,7 +146,7 @@ struct met meet(uint64_t rocks, double metres)
     for (SWEEP(rock, rocks)) {
         size_t both = count_different(false);
         if (sweep.trajectory.stems_hit != sweep.count || sweep.trajectory.stools_met != both ||
-            sweep.trajectory.end != CEDUO_LEFT_SLOPE || sweep.trajectory.stems_drawn < sweep.count)
+            sweep.trajectory.end != CEDUO_END_LEFT_SLOPE || sweep.trajectory.stems_drawn < sweep.count)
             fail_msg("rock %ju: counts of the trajectory differ from its stems", (uintmax_t)rock);
         spread_add(&m.stems, (double)sweep.count / metres);
         spread_add(&m.both, (double)both / metres);

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "ceduo/simulate.h"
 #include "line_scene.h"
 #include "paper_site.h"
 #include "runs.h"

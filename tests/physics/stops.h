@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "bench/measure.h"
-#include "ceduo/observe.h"
+#include "ceduo/calibrate.h"
 
 /* Return the 95 % point of the distance for n values (Stephens 1974). */
 static inline double stops_critical_distance(size_t n)

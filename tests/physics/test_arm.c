@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The impact of a rock that is not round: closed forms, and a calculation that follows the impulse in small steps. */
+#include "ceduo/simulate.h"
 #include "expect.h"
 
 #include <gsl/gsl_integration.h>
@@ -390,7 +391,7 @@ TEST(speed_after_an_impact_is_the_mean_over_all_rotations)
     line_scene_init(&s, 2, x, z, (struct line_ground){0.4, 0.9, 0.3}, 0.4, CEDUO_LAW_ARM);
     line_scene_release(&s, 10, 0.01, 6, -8, 5);
     s.segments[0].mu = 0.5;
-    s.scene.rock.shape = CEDUO_ELLIPSOID;
+    s.scene.rock.shape = CEDUO_SHAPE_ELLIPSOID;
     for (int i = 0; i < 3; i++)
         s.scene.rock.axes[i] = ceduo_number(d.axes[i]);
     s.scene.simulation.gravity = 1e-9;

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks of other sizes: how a rock is scaled, the order of the sizes shown, and their mass in flight. */
+#include "core/runs/blocks.h"
+#include "core/runs/run.h"
 #include "expect.h"
 #include "local.h"
+#include "scene/rock.h"
 
 #include <math.h>
 
@@ -24,7 +27,7 @@ static void expect_near(const char *label, double found, double wanted)
 
 static struct ceduo_number number(double mean, double spread)
 {
-    return (struct ceduo_number){mean, spread, CEDUO_UNIFORM};
+    return (struct ceduo_number){mean, spread, CEDUO_SPREAD_UNIFORM};
 }
 
 static void expect_scaled(const char *label, struct ceduo_number found, struct ceduo_number was, double factor)
@@ -36,7 +39,7 @@ static void expect_scaled(const char *label, struct ceduo_number found, struct c
 /* A standard deviation scales with its mean, so the density's does not change. */
 TEST(a_rock_twice_as_long_is_eight_times_as_heavy)
 {
-    const struct ceduo_rock_def was = {.shape = CEDUO_BLOCK,
+    const struct ceduo_rock_def was = {.shape = CEDUO_SHAPE_BLOCK,
                                        .diameter = number(.5, .125),
                                        .height = number(.75, .0625),
                                        .volume = number(.25, .03125),
@@ -44,7 +47,7 @@ TEST(a_rock_twice_as_long_is_eight_times_as_heavy)
                                        .density = number(LIMESTONE, 100),
                                        .axes = {number(.5, .25), number(1, .5), number(1.5, .75)}};
     struct ceduo_rock_def after = ceduo_rock_scaled(&was, 2);
-    assert_int_equal(after.shape, CEDUO_BLOCK);
+    assert_int_equal(after.shape, CEDUO_SHAPE_BLOCK);
     expect_scaled("diameter", after.diameter, was.diameter, 2);
     expect_scaled("height", after.height, was.height, 2);
     expect_scaled("volume", after.volume, was.volume, 8);
@@ -60,14 +63,14 @@ static const struct rock {
     enum ceduo_shape shape;
     double diameter, height, volume, mass, axes[3];
 } rocks[] = {
-    {"sphere by its diameter", CEDUO_SPHERE, .7, NAN, NAN, NAN, {NAN, NAN, NAN}},
-    {"sphere by its volume", CEDUO_SPHERE, NAN, NAN, .3, NAN, {NAN, NAN, NAN}},
-    {"sphere by its mass", CEDUO_SPHERE, NAN, NAN, NAN, 700, {NAN, NAN, NAN}},
-    {"sphere by diameter and mass", CEDUO_SPHERE, .7, NAN, NAN, 700, {NAN, NAN, NAN}},
-    {"cylinder", CEDUO_CYLINDER, .56, .8, NAN, NAN, {NAN, NAN, NAN}},
-    {"ellipsoid", CEDUO_ELLIPSOID, NAN, NAN, NAN, NAN, {.4, .9, 1.3}},
-    {"block by its axes", CEDUO_BLOCK, NAN, NAN, NAN, NAN, {.4, .9, 1.3}},
-    {"block by axes and mass", CEDUO_BLOCK, NAN, NAN, NAN, 900, {.4, .9, 1.3}},
+    {"sphere by its diameter", CEDUO_SHAPE_SPHERE, .7, NAN, NAN, NAN, {NAN, NAN, NAN}},
+    {"sphere by its volume", CEDUO_SHAPE_SPHERE, NAN, NAN, .3, NAN, {NAN, NAN, NAN}},
+    {"sphere by its mass", CEDUO_SHAPE_SPHERE, NAN, NAN, NAN, 700, {NAN, NAN, NAN}},
+    {"sphere by diameter and mass", CEDUO_SHAPE_SPHERE, .7, NAN, NAN, 700, {NAN, NAN, NAN}},
+    {"cylinder", CEDUO_SHAPE_CYLINDER, .56, .8, NAN, NAN, {NAN, NAN, NAN}},
+    {"ellipsoid", CEDUO_SHAPE_ELLIPSOID, NAN, NAN, NAN, NAN, {.4, .9, 1.3}},
+    {"block by its axes", CEDUO_SHAPE_BLOCK, NAN, NAN, NAN, NAN, {.4, .9, 1.3}},
+    {"block by axes and mass", CEDUO_SHAPE_BLOCK, NAN, NAN, NAN, 900, {.4, .9, 1.3}},
 };
 
 static struct ceduo_rock_def make_def(const struct rock *r)
@@ -118,7 +121,7 @@ static void size_up(const struct ceduo_arrivals *own, struct ceduo_size_result b
 static struct ceduo_rock_def slab(double volume)
 {
     struct ceduo_rock_def def = ceduo_scene_default().rock;
-    def.shape = CEDUO_BLOCK;
+    def.shape = CEDUO_SHAPE_BLOCK;
     def.axes[0] = ceduo_number(volume);
     def.axes[1] = def.axes[2] = ceduo_number(1);
     return def;
@@ -130,7 +133,7 @@ static void expect_sizes(double own, size_t place)
 {
     struct ceduo_size_result b[CEDUO_SIZES];
     drop(slab(own), NAN);
-    scene.scene.simulation.contact_model = CEDUO_INDEX;
+    scene.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
     size_up(NULL, b);
     for (size_t i = 0, row = 0; i < CEDUO_SIZES; i++) {
         if (b[i].own != (i == place))
@@ -158,7 +161,7 @@ TEST(blocks_have_the_mass_and_width_of_their_volume)
         struct ceduo_rock own;
         assert_int_equal(ceduo_rock_from_means(&def, &own), CEDUO_OK);
         drop(def, NAN);
-        scene.scene.simulation.contact_model = CEDUO_INDEX;
+        scene.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
         size_up(NULL, b);
         for (size_t k = 0; k < CEDUO_SIZES; k++) {
             expect_near(rocks[i].name, b[k].mass, own.mass / own.volume * b[k].volume);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trajectories and statistics with results in closed form or in published tables. */
+#include "ceduo/simulate.h"
+#include "core/runs/statistics.h"
+#include "scene/rock.h"
 #include "table.h"
 
 #include <math.h>
@@ -78,7 +81,7 @@ TEST(a_control_sees_the_flight_over_it)
     line_scene_release(&scene, 0, 0, -.1, 0, 0); /* leaves the other way */
     assert_int_equal(line_scene_follow(&scene, &trace), CEDUO_OK);
     assert_false(trace.crossing.reached);
-    assert_int_equal(trace.trajectory.end, CEDUO_LEFT_SLOPE);
+    assert_int_equal(trace.trajectory.end, CEDUO_END_LEFT_SLOPE);
 }
 
 /* ---- bouncing ---- */
@@ -97,7 +100,7 @@ TEST(a_vertical_drop_rebounds_to_rn2_h)
         expect_relative(p->vz * p->vz / (2 * G), h, 1e-13);
     }
     assert_int_equal(i, trace.count); /* the next bounce is lower than R */
-    assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+    assert_int_equal(trace.trajectory.end, CEDUO_END_AT_REST);
     EXPECT_IS(trace.trajectory, (x, 500), (z, 0), (contacts, i));
 }
 
@@ -117,10 +120,10 @@ TEST(a_bounce_without_loss_is_aborted_and_reported)
 {
     straight(0, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
     release(500, 1, 0, 0, 0);
-    EXPECT_IS(trace.trajectory, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 500));
+    EXPECT_IS(trace.trajectory, (end, CEDUO_END_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 500));
     straight(0, (struct line_ground){0, 1, 0}, 1e-4, CEDUO_LAW_CRSP); /* rolls, 100 m in 10^6 radii */
     release(500, 0, 1, 0, 1e4);
-    EXPECT_IS(trace.trajectory, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX));
+    EXPECT_IS(trace.trajectory, (end, CEDUO_END_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX));
     expect_relative(trace.trajectory.x, 600, 1e-9);
 }
 
@@ -143,7 +146,7 @@ static void roll_stops(enum ceduo_law law, double k, double v0)
     release(500, 0, v0, 0, v0 / .34);
     expect_relative(fabs(trace.trajectory.x - 500), (1 + k) * v0 * v0 / (2 * G * mu), 1e-12);
     EXPECT((trace.trajectory.x > 500), ==, (v0 > 0));
-    assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+    assert_int_equal(trace.trajectory.end, CEDUO_END_AT_REST);
     for (size_t i = 0; i < trace.count; i++)
         assert_true(trace.pieces[i].rolls);
     assert_int_equal(trace.trajectory.contacts, ceil(fabs(trace.trajectory.x - 500) / .34)); /* one contact per radius */
@@ -167,7 +170,7 @@ TEST(a_roll_stops_just_at_the_control)
         scene.control.x = 2;
         scene.scene.controls_count = 1;
         follow();
-        assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+        assert_int_equal(trace.trajectory.end, CEDUO_END_AT_REST);
         EXPECT(trace.trajectory.x, ==, 2);
         assert_true(trace.crossing.reached);
         EXPECT_IS(trace.crossing, (vx, 0), (vz, 0));
@@ -179,7 +182,7 @@ static void roll_accelerates(enum ceduo_law law, double k, double rise, double m
     straight(rise, (struct line_ground){.5, 1, mu}, .34, law);
     release(500, 0, 0, 0, 0);
     double c = 1 / sqrt(1 + rise * rise), a = G * (fabs(rise) - mu) * c / (1 + k);
-    assert_int_equal(trace.trajectory.end, CEDUO_LEFT_SLOPE);
+    assert_int_equal(trace.trajectory.end, CEDUO_END_LEFT_SLOPE);
     EXPECT(trace.trajectory.x, ==, (rise < 0 ? 1000 : 0));
     for (size_t i = 0; i < trace.count; i++) {
         const struct ceduo_trajectory_segment *p = &trace.pieces[i];
@@ -282,10 +285,10 @@ TEST(a_resting_rock_starts_if_the_slope_exceeds_friction)
         for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
             straight(.3 * dir, (struct line_ground){.5, .5, .31}, .34, (enum ceduo_law)law);
             release(500, 0, 0, 0, 0);
-            EXPECT_IS(trace.trajectory, (end, CEDUO_AT_REST), (x, 500), (contacts, 1));
+            EXPECT_IS(trace.trajectory, (end, CEDUO_END_AT_REST), (x, 500), (contacts, 1));
             straight(.3 * dir, (struct line_ground){.5, .5, .29}, .34, (enum ceduo_law)law);
             release(500, 0, 0, 0, 0);
-            EXPECT_IS(trace.trajectory, (end, CEDUO_LEFT_SLOPE), (x, (dir < 0 ? 1000 : 0)));
+            EXPECT_IS(trace.trajectory, (end, CEDUO_END_LEFT_SLOPE), (x, (dir < 0 ? 1000 : 0)));
         }
 }
 
@@ -294,7 +297,7 @@ static void released_in_a_pit(double radius, double level, double beyond, bool s
     const double x[] = {0, 2, 2 + level, 4 + level, 10}, z[] = {0, -1, -1, -1 + beyond, -1 + beyond};
     line_scene_init(&scene, LENGTH(x), x, z, (struct line_ground){.2, .5, .2}, radius, CEDUO_LAW_LUMPED);
     release(1.8, 0, 0, 0, 0);
-    assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+    assert_int_equal(trace.trajectory.end, CEDUO_END_AT_REST);
     EXPECT((trace.trajectory.x == 1.8), ==, stays);
 }
 
@@ -371,13 +374,13 @@ TEST(a_trajectory_ends_at_either_end_of_the_slope)
         straight(0, (struct line_ground){.5, 1, .1}, .1, CEDUO_LAW_LUMPED);
         double x = dir < 0 ? 1 : 999, end = dir < 0 ? 0 : 1000;
         release(x, 10, dir * 50, 0, 0); /* flies out */
-        EXPECT_IS(trace.trajectory, (end, CEDUO_LEFT_SLOPE), (x, end), (contacts, 0));
+        EXPECT_IS(trace.trajectory, (end, CEDUO_END_LEFT_SLOPE), (x, end), (contacts, 0));
         expect_relative(trace.trajectory.z, 10 - G / 2 / 2500, 1e-15);
         release(x, 0, dir * 3, 0, 0); /* rolls out */
-        EXPECT_IS(trace.trajectory, (end, CEDUO_LEFT_SLOPE), (x, end), (z, 0));
+        EXPECT_IS(trace.trajectory, (end, CEDUO_END_LEFT_SLOPE), (x, end), (z, 0));
         assert_true(trace.pieces[trace.count - 1].rolls);
         release(x, 0, dir * 1.4, 0, 0); /* stops within the last metre: v2 < 2 g mu */
-        assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+        assert_int_equal(trace.trajectory.end, CEDUO_END_AT_REST);
         expect_relative(fabs(trace.trajectory.x - x), 1.4 * 1.4 / (2 * G * .1), 1e-11);
     }
 }
@@ -390,7 +393,7 @@ TEST(a_final_wall_is_left_at_its_foot_only_backwards)
     scene.control.x = 20;
     scene.scene.controls_count = 1;
     follow();
-    assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+    assert_int_equal(trace.trajectory.end, CEDUO_END_AT_REST);
     EXPECT(trace.trajectory.x, <=, 20.001);
     EXPECT(trace.trajectory.x, >, 10);
 }
@@ -710,7 +713,7 @@ static struct summary draw_many(struct ceduo_number number, double lo, double hi
 /* Compare with the normal law truncated at [a, b] standard deviations from its mean. */
 static void expect_cut_normal(double mean, double sd, double lo, double hi)
 {
-    struct ceduo_number n = {.mean = mean, .spread = sd, .kind = CEDUO_NORMAL};
+    struct ceduo_number n = {.mean = mean, .spread = sd, .kind = CEDUO_SPREAD_NORMAL};
     double a = fmax(-3, (lo - mean) / sd), b = fmin(3, (hi - mean) / sd), p = below(b) - below(a);
     double shift = (density(a) - density(b)) / p;
     double variance = 1 + (a * density(a) - b * density(b)) / p - shift * shift;
@@ -730,7 +733,7 @@ TEST(a_normal_law_is_truncated)
     expect_cut_normal(.9, .1, 0, 1);
     expect_cut_normal(.05, .1, 0, 1);
     expect_cut_normal(.5, .5, 0, 1);
-    struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_NORMAL};
+    struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_SPREAD_NORMAL};
     EXPECT(ceduo_number_min(n), ==, .5);
     EXPECT(ceduo_number_max(n), ==, 3.5);
     expect_relative(ceduo_number_draw(n, .5, -INFINITY, INFINITY), 2, 1e-14);
@@ -738,7 +741,7 @@ TEST(a_normal_law_is_truncated)
 
 TEST(a_uniform_spread)
 {
-    struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_UNIFORM};
+    struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_SPREAD_UNIFORM};
     EXPECT(ceduo_number_min(n), ==, 1.5);
     EXPECT(ceduo_number_max(n), ==, 2.5);
     struct summary all = draw_many(n, -INFINITY, INFINITY, 0), cut = draw_many(n, 0, 2, 0);

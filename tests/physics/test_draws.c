@@ -18,7 +18,7 @@ static struct ground g;
 
 static struct ceduo_number uniform(double mean, double spread)
 {
-    return (struct ceduo_number){.mean = mean, .spread = spread, .kind = CEDUO_UNIFORM};
+    return (struct ceduo_number){.mean = mean, .spread = spread, .kind = CEDUO_SPREAD_UNIFORM};
 }
 
 static void level_ground(enum ceduo_law law)
@@ -28,7 +28,7 @@ static void level_ground(enum ceduo_law law)
     g.scene.simulation.scale_rn = 0;
     g.scene.simulation.friction_bound = false;
     g.scene.release =
-        (struct ceduo_release){uniform(20, 5), uniform(10, 5), uniform(8, 2), uniform(-2, 1), uniform(3, 1), false};
+        (struct ceduo_release){uniform(20, 5), uniform(10, 5), uniform(8, 2), uniform(-2, 1), uniform(3, 1), false, 0};
 }
 
 /* The first two flights of a rock. */
@@ -129,7 +129,7 @@ TEST(the_radius_limits_the_steepness_of_facets)
             segments[i] = g.segment;
             segments[i].roughness_m = .2 + .01 * i;
         }
-        g.scene.slope = (struct ceduo_slope){.facets = CEDUO_AGAINST,
+        g.scene.slope = (struct ceduo_slope){.facets = CEDUO_FACETS_AGAINST,
                                              .vertices = many ? MANY + 1 : 3,
                                              .x = x,
                                              .z = z,

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fences: closed forms of the shares that defeat one, of percentiles and rates, and the choice of class and height. */
 #include "ceduo/ceduo.h"
+#include "core/runs/fence.h"
+#include "core/runs/run.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -24,10 +26,10 @@ static void throw(double fall)
     scene.scene.rock.density = ceduo_number(2600);
     line_scene_release(&scene, 0, 0, 10, 0, 0);
     scene.scene.release.vx.spread = 2;
-    scene.scene.release.vx.kind = CEDUO_UNIFORM;
+    scene.scene.release.vx.kind = CEDUO_SPREAD_UNIFORM;
     scene.control = (struct ceduo_control){.x = 10, .x_given = 10, .accepted = NAN, .measured_speed = NAN};
     scene.scene.controls_count = 1;
-    scene.scene.design = (struct ceduo_design_values){CEDUO_SURVEY_GOOD, CEDUO_SURVEY_GOOD, NAN};
+    scene.scene.design = (struct ceduo_design_values){CEDUO_QUALITY_GOOD, CEDUO_QUALITY_GOOD, NAN};
 }
 
 static struct ceduo_fence_arrivals read_fence(const struct ceduo_run *run, double energy, double height,
@@ -163,9 +165,9 @@ TEST(what_equals_the_limit_is_held)
 TEST(percentiles_of_the_arrivals_and_of_the_system)
 {
     line_scene_drop(&scene, 1, NAN);
-    scene.scene.design = (struct ceduo_design_values){CEDUO_SURVEY_GOOD, CEDUO_SURVEY_GOOD, 1.2};
+    scene.scene.design = (struct ceduo_design_values){CEDUO_QUALITY_GOOD, CEDUO_QUALITY_GOOD, 1.2};
     scene.scene.rock.diameter = ceduo_number(NAN);
-    scene.scene.rock.mass = (struct ceduo_number){.mean = 1000, .spread = 999.999, .kind = CEDUO_UNIFORM};
+    scene.scene.rock.mass = (struct ceduo_number){.mean = 1000, .spread = 999.999, .kind = CEDUO_SPREAD_UNIFORM};
     LOCAL(ceduo_run, run) = run_option(&scene.scene, NULL, ROCKS, 1);
     double largest = 2000 * 25 / 2.0, error = SIGMAS * largest * sqrt(.05 * .95 / ROCKS);
     struct ceduo_arrivals bare = {.reach.mean = 1000 / 80.0};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Inverse search: the goal evaluated at the result meets the target. */
+#include "core/stand/adc.h"
 #include "expect.h"
 
 #include <math.h>
@@ -36,8 +37,14 @@ static bool is_passing(const struct asked *a, double target, double value)
 
 static struct ceduo_found find_with(struct asked *a, double lo, double hi, bool whole, double target, double tolerance)
 {
-    struct ceduo_find_def def = {
-        .lo = lo, .hi = hi, .whole = whole, .target = target, .goal = evaluate, .context = a, .tolerance = tolerance};
+    struct ceduo_find_def def = {.size = sizeof def,
+                                 .lo = lo,
+                                 .hi = hi,
+                                 .whole = whole,
+                                 .target = target,
+                                 .goal = evaluate,
+                                 .context = a,
+                                 .tolerance = tolerance};
     struct ceduo_found found;
     a->count = 0;
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
@@ -68,7 +75,7 @@ static bool was_evaluated(const struct asked *a, double value)
 /* Expect an evaluation that fails at most `width` from the value, on its failing side. */
 static void expect_edge(const struct asked *a, const struct ceduo_found *found, double target, double width)
 {
-    double out = found->side == CEDUO_SMALLEST ? -1 : 1, nearest = INFINITY;
+    double out = found->side == CEDUO_SIDE_SMALLEST ? -1 : 1, nearest = INFINITY;
     for (unsigned i = 0; i < a->count; i++) {
         double away = (a->values[i] - found->value) * out;
         if (away > 0 && away < nearest && !is_passing(a, target, a->values[i]))
@@ -84,7 +91,7 @@ static double adc_of_reserves(const struct asked *a, double per_ha)
 {
     struct ceduo_stems trees = {.per_ha = per_ha, .dbh = a->p[0], .height = 12, .volume = NAN, .age = NAN};
     struct ceduo_stand stand = {
-        .system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = per_ha > 0, .trees = &trees, .u = NAN};
+        .system = CEDUO_SYSTEM_SIMPLE_COPPICE, .species = -1, .trees_count = per_ha > 0, .trees = &trees, .u = NAN};
     struct ceduo_adc adc = ceduo_adc(&stand, a->p[1]);
     return ceduo_adc_value(&adc, ceduo_adc_rule(&stand, a->p[1], CEDUO_RULE_AUTO));
 }
@@ -103,7 +110,7 @@ TEST(reserves_for_30_m)
         assert_true(found.found);
         assert_true(found.monotone);
         assert_false(found.whole_range);
-        EXPECT_IS(found, (side, CEDUO_SMALLEST), (value, rocks[i].needed));
+        EXPECT_IS(found, (side, CEDUO_SIDE_SMALLEST), (value, rocks[i].needed));
         assert_true(was_evaluated(&a, rocks[i].needed - 1));
         assert_false(is_passing(&a, 30, rocks[i].needed - 1));
         EXPECT(found.evaluations, <, 20);
@@ -163,9 +170,9 @@ TEST(inverse_and_forward_agree)
         assert_int_equal(found.found, at_lo || at_hi);
         assert_int_equal(found.whole_range, at_lo && at_hi);
         if (at_lo && at_hi) {
-            EXPECT_IS(found, (value, lo), (side, CEDUO_SMALLEST));
+            EXPECT_IS(found, (value, lo), (side, CEDUO_SIDE_SMALLEST));
         } else if (found.found) {
-            assert_int_equal(found.side, at_hi ? CEDUO_SMALLEST : CEDUO_LARGEST);
+            assert_int_equal(found.side, at_hi ? CEDUO_SIDE_SMALLEST : CEDUO_SIDE_LARGEST);
             expect_edge(&a, &found, target, whole ? 1 : 1e-9 * (hi - lo));
             crossings++;
             sum += found.evaluations;
@@ -192,7 +199,7 @@ TEST(a_value_is_as_near_as_the_tolerance)
     struct asked a = {.goal = line, .p = {3}};
     struct ceduo_found found = find(&a, 0, 1, false, 1);
     EXPECT_NEAR(found.value, 1. / 3, 1e-9);
-    EXPECT(found.side, ==, CEDUO_LARGEST);
+    EXPECT(found.side, ==, CEDUO_SIDE_LARGEST);
     EXPECT(found.evaluations, ==, 2 + 30); /* 2^-30 < 1e-9 */
     a = (struct asked){.goal = parabola, .p = {0, 1}};
     found = find_with(&a, 0, 10, false, 2, 1e-13);
@@ -229,7 +236,7 @@ TEST(steps_and_jumps)
     assert_true(was_evaluated(&a, 13));
     a = (struct asked){.goal = cliff, .p = {.123456}};
     found = find(&a, 0, 1, false, 1e-6);
-    EXPECT(found.side, ==, CEDUO_LARGEST);
+    EXPECT(found.side, ==, CEDUO_SIDE_LARGEST);
     EXPECT(found.value, <, .123456);
     expect_edge(&a, &found, 1e-6, 1e-9);
     EXPECT(found.evaluations, <=, 55);
@@ -271,7 +278,7 @@ TEST(goals_that_are_not_monotone)
         assert_true(found.found);
         assert_false(found.monotone);
         assert_false(found.whole_range);
-        EXPECT(found.side, ==, CEDUO_SMALLEST);
+        EXPECT(found.side, ==, CEDUO_SIDE_SMALLEST);
         EXPECT_NEAR(found.value, (whole ? rows[i / 2].whole_edge : rows[i / 2].edge), 1e-7);
         expect_edge(&a, &found, rows[i / 2].target, whole ? 1 : 1e-7);
     }
@@ -314,7 +321,7 @@ TEST(a_search_with_only_passing_values)
     struct asked a = {.goal = line, .p = {-1}};
     struct ceduo_found found = find(&a, 5, 90, false, 0);
     ROWS(assert_true, (found.found), (found.whole_range), (found.monotone));
-    EXPECT_IS(found, (value, 5), (side, CEDUO_SMALLEST), (nearest, 90), (goal_at_nearest, -90));
+    EXPECT_IS(found, (value, 5), (side, CEDUO_SIDE_SMALLEST), (nearest, 90), (goal_at_nearest, -90));
     found = find(&a, 7, 7, false, 0);
     assert_true(found.found);
     assert_true(found.whole_range);
@@ -340,7 +347,7 @@ TEST(goals_that_are_not_finite)
         assert_true(found.found);
         EXPECT(found.monotone, ==, (i == 0));
         EXPECT_NEAR(found.value, 50, 1e-7);
-        EXPECT(found.side, ==, CEDUO_SMALLEST);
+        EXPECT(found.side, ==, CEDUO_SIDE_SMALLEST);
         expect_edge(&a, &found, 50, 1e-7);
         found = find(&a, 0, 100, false, 90); /* is_passing wherever it is a number; -inf from 0 on */
         assert_true(found.found);
@@ -411,7 +418,8 @@ static enum ceduo_status cancels_at_5(void *context, double value, double *goal)
 TEST(a_search_ends_if_the_goal_fails_or_is_cancelled)
 {
     unsigned count = 0;
-    struct ceduo_find_def def = {.hi = 1e6, .whole = true, .target = 12345, .goal = fails_at_5, .context = &count};
+    struct ceduo_find_def def = {
+        .size = sizeof def, .hi = 1e6, .whole = true, .target = 12345, .goal = fails_at_5, .context = &count};
     struct ceduo_found found;
     for (int whole = 0; whole < 2; whole++) {
         count = 0;

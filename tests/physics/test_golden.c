@@ -1,7 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures of Ciabocco, Boccia and Ripa 2009 and of their equations, to all known digits. The paper's figures belong to the
  * published laws: its scenes have no friction bound (paper_site_init()). */
+#include "core/runs/assess.h"
+#include "core/stand/adc.h"
+#include "core/stand/energy.h"
 #include "expect.h"
+#include "scene/rock.h"
+#include "scene/slope.h"
+#include "scene/species.h"
+#include "scene/stand.h"
+#include "scene/volume.h"
 
 #include <math.h>
 
@@ -75,13 +83,13 @@ TEST_WITH(rock_shapes, open_paper, NULL)
     expect_exact(rock.mean_diameter, 2);
     expect_exact(rock.moment, 0.4 * rock.mass);
     def = ceduo_scene_default().rock;
-    def.shape = CEDUO_ELLIPSOID;
+    def.shape = CEDUO_SHAPE_ELLIPSOID;
     for (int i = 0; i < 3; i++)
         def.axes[i] = ceduo_number((double[]){0.5, 1.5, 1}[i]);
     assert_int_equal(ceduo_rock_from_means(&def, &rock), CEDUO_OK);
     ROWS(expect_exact, (rock.volume, pi / 6 * 0.75), (rock.mean_diameter, 1), (rock.k, 0.4),
          (rock.axes[0] + 2 * rock.axes[1] + 4 * rock.axes[2], 0.5 + 2 * 1.5 + 4));
-    def.shape = CEDUO_BLOCK;
+    def.shape = CEDUO_SHAPE_BLOCK;
     def.mass = ceduo_number(1000);
     assert_int_equal(ceduo_rock_from_means(&def, &rock), CEDUO_OK);
     expect_exact(rock.mass, 1000);
@@ -241,7 +249,7 @@ static void rolling_and_resting(enum ceduo_law law, double x, uint64_t contacts)
     s.scene.simulation.friction_bound = false; /* golden figures belong to the published laws and to CRSP's rolling */
     line_scene_release(&s, 1, 0, 0, 0, 0);
     assert_int_equal(line_scene_follow(&s, &walked), CEDUO_OK);
-    assert_int_equal(walked.trajectory.end, CEDUO_AT_REST);
+    assert_int_equal(walked.trajectory.end, CEDUO_END_AT_REST);
     expect_decimals(walked.trajectory.x, x, 6);
     assert_int_equal(walked.trajectory.contacts, contacts);
     size_t flights_from_11 = 0;
@@ -266,10 +274,10 @@ TEST_WITH(adc_of_table_1, open_paper, NULL)
          (b.gsteiger_stems, 2.9638349890797495));
     expect_decimals(a.crofton, 2.16747, 5);
     expect_decimals(b.crofton, 3.51373, 5);
-    ROWS(EXPECT, (ceduo_adc_value(&a, CEDUO_GSTEIGER_STOOLS), ==, a.gsteiger_stools),
-         (ceduo_adc_value(&a, CEDUO_INTERCEPTION), ==, a.interception),
-         (ceduo_adc_value(&a, CEDUO_GSTEIGER_STEMS), ==, a.gsteiger_stems),
-         (ceduo_adc_value(&a, CEDUO_CROFTON), ==, a.crofton));
+    ROWS(EXPECT, (ceduo_adc_value(&a, CEDUO_RULE_GSTEIGER_STOOLS), ==, a.gsteiger_stools),
+         (ceduo_adc_value(&a, CEDUO_RULE_INTERCEPTION), ==, a.interception),
+         (ceduo_adc_value(&a, CEDUO_RULE_GSTEIGER_STEMS), ==, a.gsteiger_stems),
+         (ceduo_adc_value(&a, CEDUO_RULE_CROFTON), ==, a.crofton));
     expect_decimals(1 / a.gsteiger_stems, .67253, 5); /* stems met per metre */
     expect_decimals(1 / b.gsteiger_stems, .33740, 5);
     expect_decimals(1 / a.crofton, .46137, 5); /* stools and trees met per metre */
@@ -279,13 +287,13 @@ TEST_WITH(adc_of_table_1, open_paper, NULL)
 
 TEST_WITH(the_rule_of_the_paper, open_paper, NULL)
 {
-    ROWS(assert_int_equal, (ceduo_adc_rule(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_INTERCEPTION),
-         (ceduo_adc_rule(&plot.stand, 0.5, CEDUO_RULE_AUTO), CEDUO_INTERCEPTION),
-         (ceduo_adc_rule(&plot.stand, 0.49, CEDUO_RULE_AUTO), CEDUO_GSTEIGER_STEMS),
-         (ceduo_adc_rule(&plot.stand, 0.49, CEDUO_CROFTON), CEDUO_CROFTON));
+    ROWS(assert_int_equal, (ceduo_adc_rule(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_RULE_INTERCEPTION),
+         (ceduo_adc_rule(&plot.stand, 0.5, CEDUO_RULE_AUTO), CEDUO_RULE_INTERCEPTION),
+         (ceduo_adc_rule(&plot.stand, 0.49, CEDUO_RULE_AUTO), CEDUO_RULE_GSTEIGER_STEMS),
+         (ceduo_adc_rule(&plot.stand, 0.49, CEDUO_RULE_CROFTON), CEDUO_RULE_CROFTON));
     plot.stand.stools_per_ha = 0;
     plot.stand.shoots_count = 0;
-    assert_int_equal(ceduo_adc_rule(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_GSTEIGER_STEMS);
+    assert_int_equal(ceduo_adc_rule(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_RULE_GSTEIGER_STEMS);
 }
 
 /* Kilojoules over 67.5 m of ADS 1 and 67.5 m of ADS 2. */
@@ -306,12 +314,13 @@ static double three_decimals(double v)
 
 TEST_WITH(energy_of_tables_7_and_8, open_paper, NULL)
 {
-    ROWS(expect_decimals, (energy_of_both_plots(CEDUO_GSTEIGER_STOOLS), 34.3844, 4),
-         (energy_of_both_plots(CEDUO_GSTEIGER_STOOLS), 34, 0), (energy_of_both_plots(CEDUO_INTERCEPTION), 53.8216, 4));
-    EXPECT(energy_of_both_plots(CEDUO_RULE_AUTO), ==, energy_of_both_plots(CEDUO_INTERCEPTION));
-    expect_decimals(energy_of_both_plots(CEDUO_GSTEIGER_STEMS), 63.7469, 4);
-    expect_decimals(energy_of_both_plots(CEDUO_INTERCEPTION) / 1.35, 39.87, 2); /* per 100 m */
-    expect_decimals(energy_of_both_plots(CEDUO_INTERCEPTION) / 1.35, 40, 0);
+    ROWS(expect_decimals, (energy_of_both_plots(CEDUO_RULE_GSTEIGER_STOOLS), 34.3844, 4),
+         (energy_of_both_plots(CEDUO_RULE_GSTEIGER_STOOLS), 34, 0),
+         (energy_of_both_plots(CEDUO_RULE_INTERCEPTION), 53.8216, 4));
+    EXPECT(energy_of_both_plots(CEDUO_RULE_AUTO), ==, energy_of_both_plots(CEDUO_RULE_INTERCEPTION));
+    expect_decimals(energy_of_both_plots(CEDUO_RULE_GSTEIGER_STEMS), 63.7469, 4);
+    expect_decimals(energy_of_both_plots(CEDUO_RULE_INTERCEPTION) / 1.35, 39.87, 2); /* per 100 m */
+    expect_decimals(energy_of_both_plots(CEDUO_RULE_INTERCEPTION) / 1.35, 40, 0);
     double printed = 0; /* the paper continues with ADC rounded to three decimals */
     for (int number = 1; number <= 2; number++) {
         paper_plot_init(&plot, number);
@@ -332,7 +341,7 @@ TEST_WITH(energy_of_one_contact, open_paper, NULL)
 TEST_WITH(stumps_without_trees, open_paper, NULL)
 {
     struct ceduo_stems felled = {.per_ha = 0, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
-    struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE,
+    struct ceduo_stand stand = {.system = CEDUO_SYSTEM_SIMPLE_COPPICE,
                                 .species = -1,
                                 .trees_count = 1,
                                 .trees = &felled,
@@ -346,7 +355,8 @@ TEST_WITH(stumps_without_trees, open_paper, NULL)
 TEST_WITH(reserves_after_a_cut, open_paper, NULL)
 {
     struct ceduo_stems reserves = {.per_ha = 60, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
-    struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = 1, .trees = &reserves, .u = NAN};
+    struct ceduo_stand stand = {
+        .system = CEDUO_SYSTEM_SIMPLE_COPPICE, .species = -1, .trees_count = 1, .trees = &reserves, .u = NAN};
     struct ceduo_adc adc = ceduo_adc(&stand, PAPER_B);
     expect_decimals(adc.gsteiger_stems, 189.394, 3);
     EXPECT_IS(adc, (gsteiger_stools, adc.gsteiger_stems), (interception, adc.gsteiger_stems), (crofton, adc.gsteiger_stems));
@@ -364,7 +374,7 @@ TEST_WITH(the_threshold_in_a_belt, open_paper, NULL)
     reserves.per_ha = 379;
     struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &belt);
     assert_true(r.passes_threshold);
-    assert_int_equal(r.rule, CEDUO_GSTEIGER_STEMS);
+    assert_int_equal(r.rule, CEDUO_RULE_GSTEIGER_STEMS);
     expect_exact(r.contacts, 135 * 379 * 0.88 / 1e4);
     EXPECT_IS(r, (stools_per_ha, 0), (trees_per_ha, 379), (stems_per_ha, 379));
 }
@@ -423,7 +433,7 @@ TEST_WITH(energies_of_dorren, open_paper, NULL)
     for (int i = 0; i < 100000; i++)
         sum += ceduo_dorren_share((i + 0.5) / 1e5);
     expect_decimals(ceduo_dorren_mean_share(), sum / 1e5, 8);
-    plot.stand.energy = CEDUO_DORREN;
+    plot.stand.energy = CEDUO_ENERGY_MODEL_DORREN;
     plot.stand.fracture_ratio = 1.5;
     expect_exact(ceduo_contact_energy(&plot.stand, &plot.shoots),
                  1.5 * ceduo_dorren_mean_share() * ceduo_dorren_energy(.061, 1));
@@ -534,10 +544,10 @@ TEST_WITH(each_stratum_takes_its_own_energy, open_paper, NULL)
                                 .u = 1e5};
     const double b = .7, a = 1e4, dc = .0625, wc = 1e5 * .0175;
     const double d = (150 + 100 + 20 + 8) / 4120., t = (100 * .9 * 2e4 + 20 * 1.1 * 1e5) / a;
-    ROWS(expect_exact, (ceduo_energy_per_metre(&stand, b, CEDUO_INTERCEPTION), 2000 * (b + dc + .3) * wc / a + t),
-         (ceduo_energy_per_metre(&stand, b, CEDUO_CROFTON), 2000 * (b + dc + .6 / acos(-1)) * wc / a + t),
-         (ceduo_energy_per_metre(&stand, b, CEDUO_GSTEIGER_STOOLS), (b + d) * (2000 * wc + 100 * 2e4 + 20 * 1e5) / a));
-    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_GSTEIGER_STEMS),
+    ROWS(expect_exact, (ceduo_energy_per_metre(&stand, b, CEDUO_RULE_INTERCEPTION), 2000 * (b + dc + .3) * wc / a + t),
+         (ceduo_energy_per_metre(&stand, b, CEDUO_RULE_CROFTON), 2000 * (b + dc + .6 / acos(-1)) * wc / a + t),
+         (ceduo_energy_per_metre(&stand, b, CEDUO_RULE_GSTEIGER_STOOLS), (b + d) * (2000 * wc + 100 * 2e4 + 20 * 1e5) / a));
+    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_RULE_GSTEIGER_STEMS),
                  (3000 * (b + .05) * 1e3 + 1000 * (b + .1) * 4e3) / a + t);
     struct ceduo_adc adc = ceduo_adc(&stand, b);
     ROWS(expect_exact, (adc.gsteiger_stools, a / (2120 * (b + d))),
@@ -550,7 +560,7 @@ TEST_WITH(each_stratum_takes_its_own_energy, open_paper, NULL)
 TEST_WITH(warnings_of_the_plots, open_paper, NULL)
 {
     /* ADS 2: s > (n - 1)(B + d), more contacts than stems */
-    expect_warned(&two.stand, CEDUO_WARN_BELOW_FREE_PATH, ~(unsigned)CEDUO_WARN_BELOW_FREE_PATH);
+    expect_warned(&two.stand, CEDUO_WARNING_BELOW_FREE_PATH, ~(unsigned)CEDUO_WARNING_BELOW_FREE_PATH);
     expect_warned(&one.stand, 0, ~0U);
 }
 
@@ -560,36 +570,36 @@ TEST_WITH(a_warning_near_the_jump, open_paper, NULL)
     static const double near[] = {.619, .68, .755}, far[] = {.617, .757};
     for (size_t i = 0; i < LENGTH(near); i++) {
         plot.stand.spacing = near[i];
-        expect_warned(&plot.stand, CEDUO_WARN_NEAR_JUMP, 0);
-        EXPECT(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_CROFTON) & CEDUO_WARN_NEAR_JUMP, ==, 0);
+        expect_warned(&plot.stand, CEDUO_WARNING_NEAR_JUMP, 0);
+        EXPECT(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_CROFTON) & CEDUO_WARNING_NEAR_JUMP, ==, 0);
     }
     for (size_t i = 0; i < LENGTH(far); i++) {
         plot.stand.spacing = far[i];
-        expect_warned(&plot.stand, 0, CEDUO_WARN_NEAR_JUMP);
+        expect_warned(&plot.stand, 0, CEDUO_WARNING_NEAR_JUMP);
     }
 }
 
 TEST_WITH(warnings_of_energies_and_spacing, open_paper, NULL)
 {
-    plot.stand.energy = CEDUO_DORREN;
-    expect_warned(&plot.stand, CEDUO_WARN_DORREN_THIN, CEDUO_WARN_U_ASSUMED | CEDUO_WARN_FORM_FACTOR);
+    plot.stand.energy = CEDUO_ENERGY_MODEL_DORREN;
+    expect_warned(&plot.stand, CEDUO_WARNING_DORREN_THIN, CEDUO_WARNING_U_ASSUMED | CEDUO_WARNING_FORM_FACTOR);
     plot.stand.fracture_ratio = NAN; /* hop hornbeam has no ratio */
-    expect_warned(&plot.stand, CEDUO_WARN_RATIO_ASSUMED, CEDUO_WARN_WIDE_SPACING);
+    expect_warned(&plot.stand, CEDUO_WARNING_RATIO_ASSUMED, CEDUO_WARNING_WIDE_SPACING);
     plot.shoots.dbh = plot.trees.dbh = .1;
-    expect_warned(&plot.stand, 0, CEDUO_WARN_DORREN_THIN);
+    expect_warned(&plot.stand, 0, CEDUO_WARNING_DORREN_THIN);
     plot.trees.dbh = .099;
-    expect_warned(&plot.stand, CEDUO_WARN_DORREN_THIN, 0);
+    expect_warned(&plot.stand, CEDUO_WARNING_DORREN_THIN, 0);
     paper_plot_init(&plot, 2);
     plot.shoots.volume = NAN; /* 4.7 cm and 4 m are outside the equation */
-    expect_warned(&plot.stand, CEDUO_WARN_FORM_FACTOR, 0);
+    expect_warned(&plot.stand, CEDUO_WARNING_FORM_FACTOR, 0);
     plot.stand.u = NAN; /* hop hornbeam is not in Table 4 */
-    expect_warned(&plot.stand, CEDUO_WARN_U_ASSUMED, 0);
+    expect_warned(&plot.stand, CEDUO_WARNING_U_ASSUMED, 0);
     plot.stand.species = ceduo_species_find("fagus-sylvatica");
-    expect_warned(&plot.stand, 0, CEDUO_WARN_U_ASSUMED);
+    expect_warned(&plot.stand, 0, CEDUO_WARNING_U_ASSUMED);
     plot.stand.spacing = .73; /* B + d = .727 */
-    expect_warned(&plot.stand, CEDUO_WARN_WIDE_SPACING, 0);
+    expect_warned(&plot.stand, CEDUO_WARNING_WIDE_SPACING, 0);
     plot.stand.spacing = .72;
-    expect_warned(&plot.stand, 0, CEDUO_WARN_WIDE_SPACING);
+    expect_warned(&plot.stand, 0, CEDUO_WARNING_WIDE_SPACING);
 }
 
 /* ---- index ---- */
@@ -615,7 +625,7 @@ TEST_WITH(index_of_the_site, open_paper, NULL)
     expect_decimals(i.dissipated / 1e3, 53.8216, 4);
     expect_decimals(i.residual / 1e3, 112.319 - 53.8216, 3); /* Eq. 5 */
     assert_false(i.exhausted);
-    EXPECT_IS(i, (length, 135), (longest_gap, 0), (contact, CEDUO_PASS), (free_run, CEDUO_PASS));
+    EXPECT_IS(i, (length, 135), (longest_gap, 0), (contact, CEDUO_LIGHT_PASS), (free_run, CEDUO_LIGHT_PASS));
     expect_decimals(i.measured / 1e3, 62.337, 3);
     double nothing = exp(-67.5 / 2.16747 - 67.5 / 3.51373);
     EXPECT_NEAR(i.meet_nothing_probability / nothing, 1, 2e-4);
@@ -633,7 +643,7 @@ TEST_WITH(meets_nothing_in_ten_metres_of_ads_1, open_paper, NULL)
     site.option.belts_count = 1;
     struct ceduo_index i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
     expect_decimals(i.meet_nothing_probability, .00992, 5);
-    EXPECT_IS(i, (longest_gap, 125), (contact, CEDUO_FAIL));
+    EXPECT_IS(i, (longest_gap, 125), (contact, CEDUO_LIGHT_FAIL));
 }
 
 TEST_WITH(index_without_forest, open_paper, NULL)
@@ -642,9 +652,9 @@ TEST_WITH(index_without_forest, open_paper, NULL)
     site.control.measured_speed = NAN;
     struct ceduo_index i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
     EXPECT_IS(i, (length, 0), (longest_gap, 135), (dissipated, 0), (residual, 1e5), (meet_nothing_probability, 1),
-              (worst_free_run, 1), (contact, CEDUO_FAIL), (free_run, CEDUO_FAIL));
+              (worst_free_run, 1), (contact, CEDUO_LIGHT_FAIL), (free_run, CEDUO_LIGHT_FAIL));
     assert_true(isnan(i.measured));
-    struct ceduo_belt bare = {.from = 0, .to = 135, .stand = {.system = CEDUO_BARE, .species = -1, .u = NAN}};
+    struct ceduo_belt bare = {.from = 0, .to = 135, .stand = {.system = CEDUO_SYSTEM_BARE, .species = -1, .u = NAN}};
     struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &bare);
     assert_true(r.bare);
     assert_true(isinf(r.adc_m));

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sizes and weights: their laws in closed form; equal weights change no statistics. */
+#include "core/runs/hazard.h"
+#include "core/runs/statistics.h"
 #include "expect.h"
 #include "local.h"
+#include "scene/rock.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -109,7 +112,7 @@ TEST(a_rock_is_scaled_as_a_whole)
 {
     struct ceduo_rock_def def = ceduo_scene_default().rock;
     struct ceduo_rock rock;
-    def.shape = CEDUO_CYLINDER;
+    def.shape = CEDUO_SHAPE_CYLINDER;
     def.diameter = ceduo_number(0.56);
     def.height = ceduo_number(0.80);
     def.density = ceduo_number(2600);

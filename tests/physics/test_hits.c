@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A single hit: a rock that flies over a stem does not hit it. Each stem takes energy by its own diameter, so that the mean of
  * many is the value given for the mean diameter. */
+#include "ceduo/simulate.h"
 #include "expect.h"
 
 #include <math.h>

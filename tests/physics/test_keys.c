@@ -2,7 +2,10 @@
 /* Keys of scenes, forests and years: each field is changed alone (test_table.c does so for every row). If a field affects
  * results, the key must change, or old results would be shown for new values. Otherwise it must stay, or equal rocks would be
  * simulated twice. */
+#include "core/runs/key.h"
 #include "expect.h"
+#include "scene/stand.h"
+#include "scene/volume.h"
 
 #include <math.h>
 #include <string.h>
@@ -91,7 +94,8 @@ static void expect_decides(enum about about, uint64_t before, const char *name, 
 /* The kind of a distribution matters only if its deviation is above 0. */
 static void walk_spread(enum about about, struct ceduo_number *n, const char *name)
 {
-    const enum ceduo_spread_kind kind = n->kind, other = kind == CEDUO_NORMAL ? CEDUO_UNIFORM : CEDUO_NORMAL;
+    const enum ceduo_spread_kind kind = n->kind,
+                                 other = kind == CEDUO_SPREAD_NORMAL ? CEDUO_SPREAD_UNIFORM : CEDUO_SPREAD_NORMAL;
     uint64_t before = compute_key(about);
     n->kind = other;
     expect_decides(about, before, name, ", kind without spread", false);
@@ -360,12 +364,12 @@ TEST(stems_affect_the_forest_key)
     walk_simulation(STEMS);
     walk_option(STEMS);
     for (size_t i = 0; i < 2; i++) {
-        site.belts[i].stand.energy = CEDUO_DORREN;
+        site.belts[i].stand.energy = CEDUO_ENERGY_MODEL_DORREN;
         site.belts[i].stand.fracture_ratio = 1.5;
     }
     walk_option(DORREN);
     for (size_t i = 0; i < 2; i++) {
-        site.belts[i].stand.energy = CEDUO_BRAUNER;
+        site.belts[i].stand.energy = CEDUO_ENERGY_MODEL_BRAUNER;
         site.plots[i].shoots.dbh_sd = site.plots[i].trees.dbh_sd = .02;
     }
     walk_option(DBHS);
@@ -403,7 +407,7 @@ TEST(other_stems_make_another_forest)
     shoots->volume = 1.5; /* a hit takes 1.5 J, or 1.5 times dorren's energy */
     stand->u = 1;
     key = compute_key(STEMS);
-    stand->energy = CEDUO_DORREN;
+    stand->energy = CEDUO_ENERGY_MODEL_DORREN;
     stand->fracture_ratio = 1.5;
     EXPECT(compute_key(DORREN), !=, key);
     open_site();
@@ -436,7 +440,7 @@ TEST(stems_with_equal_energy_are_the_same_forest)
     site.belts[1].stand.shoots_count = site.belts[1].stand.trees_count = 0;
     EXPECT(compute_key(STEMS), ==, 0);
     open_site();
-    site.scene.simulation.contact_model = CEDUO_INDEX;
+    site.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
     EXPECT(compute_key(STEMS), ==, 0);
 }
 

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
 /* Vector kernels give the same bits as the scalar one in every figure of a run, and the speeds of the slow walk. */
+#include "ceduo/simulate.h"
+#include "core/runs/run.h"
 #include "expect.h"
 #include "local.h"
+#include "scene/rock.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -89,7 +92,7 @@ static uint64_t expect_same_arrivals(const char *scene, const struct ceduo_run *
     EXPECT(ceduo_run_contacts(run), <=, ceduo_run_contacts(whole));
     compare_places(scene, whole, run, def);
     struct ceduo_ends ends = read_ends(run);
-    EXPECT(ends.count[CEDUO_LEFT_SLOPE], ==, 0);
+    EXPECT(ends.count[CEDUO_END_LEFT_SLOPE], ==, 0);
     assert_true(isnan(ends.stop_max));
     uint64_t saved = ceduo_run_contacts(whole) - ceduo_run_contacts(run);
     ceduo_run_free(run);
@@ -131,7 +134,7 @@ struct wild {
 static void add_spreads(struct wild *w, struct line_random *r)
 {
     struct ceduo_scene *scene = &w->line.scene;
-    enum ceduo_spread_kind kind = line_chance(r, 0.5) ? CEDUO_NORMAL : CEDUO_UNIFORM;
+    enum ceduo_spread_kind kind = line_chance(r, 0.5) ? CEDUO_SPREAD_NORMAL : CEDUO_SPREAD_UNIFORM;
     if (line_chance(r, 0.5)) {
         scene->rock.diameter.spread = scene->rock.diameter.mean * line_uniform(r, 0.01, 0.25);
         scene->rock.diameter.kind = kind;
@@ -188,8 +191,8 @@ static void add_stand(struct wild *w, struct line_random *r, int i)
 {
     struct ceduo_stand *stand = &w->plots[i].stand;
     paper_plot_init(&w->plots[i], i + 1);
-    stand->energy = (enum ceduo_energy_model)line_uniform(r, CEDUO_BRAUNER, CEDUO_DORREN + 0.999);
-    stand->offset = line_chance(r, 0.5) ? CEDUO_OFFSET_WHOLE : CEDUO_OFFSET_BY_ECCENTRICITY;
+    stand->energy = (enum ceduo_energy_model)line_uniform(r, CEDUO_ENERGY_MODEL_BRAUNER, CEDUO_ENERGY_MODEL_DORREN + 0.999);
+    stand->offset = line_chance(r, 0.5) ? CEDUO_ENERGY_OFFSET_WHOLE : CEDUO_ENERGY_OFFSET_BY_ECCENTRICITY;
     stand->hit_below = line_chance(r, 0.3) ? line_uniform(r, 0.2, 3) : 0;
     if (line_chance(r, 0.3))
         stand->stumps = (struct ceduo_stumps){.per_ha = line_uniform(r, 1, 2000),
@@ -295,11 +298,11 @@ TEST(the_papers_site)
         simulation->law = (enum ceduo_law)(i % CEDUO_LAW_COUNT);
         unsigned reading = i / CEDUO_LAW_COUNT, forest = reading >> 3 & 3;
         paper_site_read_theta(&site, reading & 1 ? PAPER_HEIGHT : PAPER_ANGLE);
-        site.scene.slope.facets = reading & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
+        site.scene.slope.facets = reading & 2 ? CEDUO_FACETS_BOTH : CEDUO_FACETS_AGAINST;
         simulation->scale_rn = reading & 4;
         simulation->friction_bound = reading >> 5;
         if (forest == 3)
-            site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
+            site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_SPREAD_NORMAL};
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
         def.option = forest == 0 ? NULL : &site.option;
         def.threads = 2;
@@ -311,11 +314,11 @@ TEST(the_papers_site)
 static void vary(struct ceduo_scene *scene)
 {
     scene->rock.diameter.spread = .25 * scene->rock.diameter.mean;
-    scene->rock.diameter.kind = CEDUO_UNIFORM;
+    scene->rock.diameter.kind = CEDUO_SPREAD_UNIFORM;
     for (size_t j = 0; j + 1 < scene->slope.vertices; j++) {
         struct ceduo_segment *to = &scene->slope.segments[j];
-        to->rn = (struct ceduo_number){.4, .1, CEDUO_NORMAL};
-        to->rt = (struct ceduo_number){.9, .05, CEDUO_UNIFORM};
+        to->rn = (struct ceduo_number){.4, .1, CEDUO_SPREAD_NORMAL};
+        to->rt = (struct ceduo_number){.9, .05, CEDUO_SPREAD_UNIFORM};
         to->roughness_rad = NAN;
         to->roughness_m = .02 + .01 * (double)(j % 5);
     }
@@ -341,7 +344,7 @@ static void compare_on_a_long_profile(bool friction_bound, bool varies)
         line_scene_init(&line, 2, x, z, (struct line_ground){0.4, 0.9, 0.4}, 0.3, (enum ceduo_law)law);
         line_scene_release(&line, 1, 3, 5, 0, 0);
         line.scene.slope =
-            (struct ceduo_slope){.facets = CEDUO_BOTH, .vertices = LONG_VERTICES, .x = x, .z = z, .segments = segments};
+            (struct ceduo_slope){.facets = CEDUO_FACETS_BOTH, .vertices = LONG_VERTICES, .x = x, .z = z, .segments = segments};
         line.control = (struct ceduo_control){.x = x[LONG_VERTICES / 2], .accepted = 1e3, .measured_speed = NAN};
         line.scene.controls_count = 1;
         line.scene.simulation.friction_bound = friction_bound;
@@ -356,9 +359,9 @@ static void compare_on_a_long_profile(bool friction_bound, bool varies)
         site.scene.slope = line.scene.slope;
         site.scene.simulation.law = (enum ceduo_law)law;
         site.scene.simulation.friction_bound = friction_bound;
-        site.scene.simulation.contact_model = CEDUO_STEMS;
+        site.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
         if (varies)
-            site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
+            site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_SPREAD_NORMAL};
         site.scene.release = (struct ceduo_release){.x = ceduo_number(middle),
                                                     .height = ceduo_number(1),
                                                     .vx = ceduo_number(-25),
@@ -403,10 +406,10 @@ TEST(rocks_that_roll_among_stems)
         if (reading & 2)
             vary(&line.scene);
         if (reading & 4)
-            line.scene.release.vx = (struct ceduo_number){2, 1, CEDUO_UNIFORM};
+            line.scene.release.vx = (struct ceduo_number){2, 1, CEDUO_SPREAD_UNIFORM};
         paper_site_init(&site);
         site.belts[1].to = site.belts[1].to_given = 140;
-        line.scene.simulation.contact_model = CEDUO_STEMS;
+        line.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
         struct ceduo_run_def def = ceduo_run_def_default(&line.scene);
         def.option = reading & 8 ? &site.option : NULL;
         def.threads = 2;
@@ -441,7 +444,7 @@ static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
     const struct slow_def def = {.count = slope->vertices - 1,
                                  .segments = segments,
                                  .law = scene->simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
-                                 .facets = slope->facets == CEDUO_BOTH ? SLOW_BOTH : SLOW_AGAINST,
+                                 .facets = slope->facets == CEDUO_FACETS_BOTH ? SLOW_BOTH : SLOW_AGAINST,
                                  .scale_rn = scene->simulation.scale_rn,
                                  .friction_bound = scene->simulation.friction_bound,
                                  .gravity = scene->simulation.gravity,

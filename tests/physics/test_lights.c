@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lights with a figure exactly at its limit. An ADC equal to the threshold fails; a gap equal to the threshold, a share of
  * 0.05, and the accepted energy itself pass. All equalities are exact in doubles, and the next double decides otherwise. */
+#include "core/runs/assess.h"
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
 #include "expect.h"
 #include "local.h"
 
@@ -52,12 +55,12 @@ TEST(an_adc_as_long_as_the_threshold_fails)
         plant_trees(worst == 0 ? 400 : 1000, worst == 0 ? 1000 : 400);
         site.scene.simulation.threshold = 25; /* 10^4/400 */
         struct ceduo_index at = assess();
-        EXPECT_IS(at, (worst_adc, 25), (longest_gap, 0), (contact, CEDUO_FAIL));
+        EXPECT_IS(at, (worst_adc, 25), (longest_gap, 0), (contact, CEDUO_LIGHT_FAIL));
         assert_false(ceduo_assess_stand(&site.scene, &site.belts[worst]).passes_threshold);
         assert_true(ceduo_assess_stand(&site.scene, &site.belts[1 - worst]).passes_threshold);
         site.scene.simulation.threshold = next_above(25);
         at = assess();
-        EXPECT(at.contact, ==, CEDUO_PASS);
+        EXPECT(at.contact, ==, CEDUO_LIGHT_PASS);
         assert_true(ceduo_assess_stand(&site.scene, &site.belts[worst]).passes_threshold);
     }
 }
@@ -79,8 +82,9 @@ TEST(a_gap_as_long_as_the_threshold_passes)
             }
             struct ceduo_index found = assess();
             assert_true(longer ? found.longest_gap > 30 : found.longest_gap == 30);
-            assert_int_equal(found.contact, longer ? CEDUO_FAIL : CEDUO_PASS);
-            assert_int_equal(found.free_run, longer ? CEDUO_FAIL : CEDUO_PASS); /* every rock runs that far without stems */
+            assert_int_equal(found.contact, longer ? CEDUO_LIGHT_FAIL : CEDUO_LIGHT_PASS);
+            assert_int_equal(found.free_run,
+                             longer ? CEDUO_LIGHT_FAIL : CEDUO_LIGHT_PASS); /* every rock runs that far without stems */
             EXPECT(found.worst_free_run, <, .1);
         }
 }
@@ -93,13 +97,13 @@ TEST(a_belt_after_the_control_has_no_effect)
     site.belts[1].from = site.control.x;
     site.belts[1].to = site.control.x + 10;
     struct ceduo_index at = assess();
-    EXPECT_IS(at, (longest_gap, 5), (length, 130), (contact, CEDUO_PASS));
+    EXPECT_IS(at, (longest_gap, 5), (length, 130), (contact, CEDUO_LIGHT_PASS));
     site.belts[1].stand.trees[0].per_ha = 1; /* too thin if a part lay before the control */
-    EXPECT(assess().contact, ==, CEDUO_PASS);
+    EXPECT(assess().contact, ==, CEDUO_LIGHT_PASS);
     site.option.belts++;
     site.option.belts_count = 1;
     at = assess();
-    EXPECT_IS(at, (longest_gap, site.control.x), (contact, CEDUO_FAIL), (worst_adc, INFINITY), (worst_free_run, 1));
+    EXPECT_IS(at, (longest_gap, site.control.x), (contact, CEDUO_LIGHT_FAIL), (worst_adc, INFINITY), (worst_free_run, 1));
 }
 
 /* exp(-x) of a double x is never exactly the double 0.1: take the two nearest probabilities, 2e-17 below and above. */
@@ -107,11 +111,11 @@ TEST(a_free_run_probability_of_a_tenth_is_the_maximum_that_passes)
 {
     plant_trees(400, 1000);
     double threshold = 25 * log(10) * (1 - 1e-15), fails = 0, passes = 0; /* over an ADC of 25 m */
-    for (enum ceduo_light light = CEDUO_FAIL; light != CEDUO_PASS; threshold = next_above(threshold)) {
+    for (enum ceduo_light light = CEDUO_LIGHT_FAIL; light != CEDUO_LIGHT_PASS; threshold = next_above(threshold)) {
         site.scene.simulation.threshold = threshold;
         struct ceduo_index at = assess();
         light = at.free_run;
-        *(light == CEDUO_PASS ? &passes : &fails) = at.worst_free_run;
+        *(light == CEDUO_LIGHT_PASS ? &passes : &fails) = at.worst_free_run;
         EXPECT_NEAR(at.worst_free_run, .1, 5e-16);
     }
     EXPECT(fails, >, .1);
@@ -148,11 +152,11 @@ static enum ceduo_light judge_share(double exceed, uint64_t unfinished)
 
 TEST(a_share_of_a_twentieth_passes)
 {
-    assert_int_equal(judge_share(.05, 0), CEDUO_PASS);
-    assert_int_equal(judge_share(next_above(.05), 0), CEDUO_FAIL);
-    assert_int_equal(judge_share(0, 1), CEDUO_PASS); /* 1 in 20 in either case */
-    assert_int_equal(judge_share(1e-16, 1), CEDUO_UNKNOWN);
-    assert_int_equal(judge_share(.05, 1), CEDUO_UNKNOWN);
+    assert_int_equal(judge_share(.05, 0), CEDUO_LIGHT_PASS);
+    assert_int_equal(judge_share(next_above(.05), 0), CEDUO_LIGHT_FAIL);
+    assert_int_equal(judge_share(0, 1), CEDUO_LIGHT_PASS); /* 1 in 20 in either case */
+    assert_int_equal(judge_share(1e-16, 1), CEDUO_LIGHT_UNKNOWN);
+    assert_int_equal(judge_share(.05, 1), CEDUO_LIGHT_UNKNOWN);
 }
 
 /* Rocks of 2 kg; at 5 m/s they have 25 J. */
@@ -185,10 +189,10 @@ TEST(a_rock_with_the_accepted_energy_does_not_exceed_it)
 {
     struct ceduo_arrivals a = read_share(25);
     EXPECT_IS(a, (exceeded, 0), (exceed.mean, 0));
-    assert_int_equal(ceduo_energy_light(&a), CEDUO_PASS);
+    assert_int_equal(ceduo_energy_light(&a), CEDUO_LIGHT_PASS);
     a = read_share(next_below(25));
     EXPECT_IS(a, (exceeded, 20), (exceed.mean, 1));
-    assert_int_equal(ceduo_energy_light(&a), CEDUO_FAIL);
+    assert_int_equal(ceduo_energy_light(&a), CEDUO_LIGHT_FAIL);
 }
 
 /* Return the difference at the control made by trees between two places, for rocks with 25 J there. */
@@ -241,14 +245,14 @@ TEST(one_rock_of_twenty_may_exceed)
             LOCAL(ceduo_run, run) = run_option(&site.scene, NULL, 20, 1);
             struct ceduo_arrivals a = read_arrivals(run, 0);
             assert_int_equal(a.exceeded, more ? 2 : 1);
-            assert_int_equal(ceduo_energy_light(&a), more ? CEDUO_FAIL : CEDUO_PASS);
+            assert_int_equal(ceduo_energy_light(&a), more ? CEDUO_LIGHT_FAIL : CEDUO_LIGHT_PASS);
         }
 }
 
 /* An index depends on the thin stems if either light differs without them. */
 TEST(an_index_can_depend_on_thin_stems)
 {
-    const enum ceduo_light lights[] = {CEDUO_PASS, CEDUO_FAIL};
+    const enum ceduo_light lights[] = {CEDUO_LIGHT_PASS, CEDUO_LIGHT_FAIL};
     for (int i = 0; i < 16; i++) {
         struct ceduo_index index = {.contact = lights[i & 1], .free_run = lights[i >> 1 & 1]};
         index.thick.contact = lights[i >> 2 & 1];
@@ -282,11 +286,11 @@ TEST(too_few_arrivals_give_no_answer)
 TEST(a_share_is_judged_by_its_interval)
 {
     const double limit = .05;
-    ROWS(assert_int_equal, (ceduo_judge_share((struct ceduo_estimate){.04, NAN, .03, .05}, limit), CEDUO_YES),
-         (ceduo_judge_share((struct ceduo_estimate){.04, NAN, .03, next_above(.05)}, limit), CEDUO_NOT_DECIDED),
-         (ceduo_judge_share((struct ceduo_estimate){.06, NAN, next_above(.05), .07}, limit), CEDUO_NO),
-         (ceduo_judge_share((struct ceduo_estimate){.06, NAN, .05, .07}, limit), CEDUO_NOT_DECIDED),
-         (ceduo_judge_share((struct ceduo_estimate){NAN, NAN, NAN, NAN}, limit), CEDUO_UNANSWERED));
+    ROWS(assert_int_equal, (ceduo_judge_share((struct ceduo_estimate){.04, NAN, .03, .05}, limit), CEDUO_JUDGEMENT_YES),
+         (ceduo_judge_share((struct ceduo_estimate){.04, NAN, .03, next_above(.05)}, limit), CEDUO_JUDGEMENT_NOT_DECIDED),
+         (ceduo_judge_share((struct ceduo_estimate){.06, NAN, next_above(.05), .07}, limit), CEDUO_JUDGEMENT_NO),
+         (ceduo_judge_share((struct ceduo_estimate){.06, NAN, .05, .07}, limit), CEDUO_JUDGEMENT_NOT_DECIDED),
+         (ceduo_judge_share((struct ceduo_estimate){NAN, NAN, NAN, NAN}, limit), CEDUO_JUDGEMENT_UNANSWERED));
 }
 
 TEST(a_safe_bare_slope_needs_no_forest)
@@ -295,9 +299,10 @@ TEST(a_safe_bare_slope_needs_no_forest)
     const struct ceduo_arrivals many = {
         .released = 1000, .reached = 900, .exceed.mean = .8, .exceed.lo = .77, .exceed.hi = .83, .limit = .05};
     const struct ceduo_arrivals none = {.released = 1000, .exceed.hi = .004, .limit = .05};
-    assert_int_equal(ceduo_judge_control(&few, NULL), CEDUO_YES); /* by the index: a forest never increases arrivals */
-    ROWS(assert_int_equal, (ceduo_judge_control(&many, NULL), CEDUO_UNANSWERED), (ceduo_judge_control(&many, &few), CEDUO_YES),
-         (ceduo_judge_control(&many, &many), CEDUO_NO));
-    assert_int_equal(ceduo_judge_control(&many, &none), CEDUO_YES); /* the forest stops all of them */
-    assert_int_equal(ceduo_judge_control(&none, &none), CEDUO_CANNOT_JUDGE);
+    assert_int_equal(ceduo_judge_control(&few, NULL),
+                     CEDUO_JUDGEMENT_YES); /* by the index: a forest never increases arrivals */
+    ROWS(assert_int_equal, (ceduo_judge_control(&many, NULL), CEDUO_JUDGEMENT_UNANSWERED),
+         (ceduo_judge_control(&many, &few), CEDUO_JUDGEMENT_YES), (ceduo_judge_control(&many, &many), CEDUO_JUDGEMENT_NO));
+    assert_int_equal(ceduo_judge_control(&many, &none), CEDUO_JUDGEMENT_YES); /* the forest stops all of them */
+    assert_int_equal(ceduo_judge_control(&none, &none), CEDUO_JUDGEMENT_CANNOT_JUDGE);
 }

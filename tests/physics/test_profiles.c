@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Long profiles: what makes them fast changes nothing. Neighbours on one line are one segment inside the core, flights
  * pass chunks of segments, rolls whole segments; each against the same without it. */
+#include "ceduo/simulate.h"
 #include "expect.h"
 #include "local.h"
 
@@ -90,11 +91,11 @@ TEST(a_cut_slope_keeps_spreads_and_roughness_heights)
 {
     init_site(CEDUO_LAW_CRSP, true);
     for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
-        site.segments[j].rn = (struct ceduo_number){.3, .01 * (double)(j % 4), CEDUO_NORMAL};
-        site.segments[j].rt = (struct ceduo_number){.85, .01 * (double)(j % 3), CEDUO_UNIFORM};
+        site.segments[j].rn = (struct ceduo_number){.3, .01 * (double)(j % 4), CEDUO_SPREAD_NORMAL};
+        site.segments[j].rt = (struct ceduo_number){.85, .01 * (double)(j % 3), CEDUO_SPREAD_UNIFORM};
     }
-    site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
-    site.scene.rock.diameter = (struct ceduo_number){.56, .05, CEDUO_NORMAL};
+    site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_SPREAD_NORMAL};
+    site.scene.rock.diameter = (struct ceduo_number){.56, .05, CEDUO_SPREAD_NORMAL};
     LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 5000);
     struct ceduo_scene scene = site.scene;
     scene.slope = fine;

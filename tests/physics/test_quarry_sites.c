@@ -3,6 +3,7 @@
 /* Calibrations of twenty small sites with known ground. All bounds follow from the binomial law: a correct calibration would
  * leave them once in ten thousand runs, and the sites never change. bench_calibration does this for many sites with usual
  * numbers of rocks. */
+#include "ceduo/calibrate.h"
 #include "expect.h"
 
 #include <gsl/gsl_cdf.h>
@@ -43,7 +44,7 @@ TEST(ranges_hold_the_truth)
         for (size_t k = 0; k < 2; k++)
             likely += a.predicted[k].p_value >= CEDUO_MISFIT;
         fits++;
-        ceduo_calibration_free(&a);
+        ceduo_calibration_release(&a);
     }
     ROWS(EXPECT, (fits, >=, SITES - 2), (held, >=, required_successes(VALUES * fits, 0.95)),
          (likely, >=, required_successes(2 * fits, 0.95)));
@@ -67,7 +68,7 @@ TEST(observations_by_another_law_are_detected)
             continue;
         flagged += a.misfit;
         fits++;
-        ceduo_calibration_free(&a);
+        ceduo_calibration_release(&a);
     }
     EXPECT(fits, >=, SITES / 2 - 2);
     EXPECT(flagged, >=, required_successes(fits, 0.9));

@@ -2,6 +2,7 @@
 /* Rocks on planes with the friction bound: a roll on smooth ground has a closed form, and speeds depend smoothly on roughness
  * and size. Ground of talus: Rn .315, Rt .835, friction .45. All planes of the tables are steeper than friction, so that every
  * rock arrives and a mean over arrivals is a mean over all. */
+#include "ceduo/simulate.h"
 #include "expect.h"
 #include "local.h"
 
@@ -77,11 +78,11 @@ TEST(a_roll_on_a_plane_loses_to_friction_alone)
                 expect_roll(b, 0, law == CEDUO_LAW_CRSP ? .4 : 0, FRICTION);
                 scene.segments[0].roughness_m = 0;
                 expect_roll(b, 0, law == CEDUO_LAW_CRSP ? .4 : 0, FRICTION);
-                assert_int_equal(trace.trajectory.end, CEDUO_LEFT_SLOPE);
-                scene.scene.rock.shape = CEDUO_CYLINDER; /* k = 1/2 */
+                assert_int_equal(trace.trajectory.end, CEDUO_END_LEFT_SLOPE);
+                scene.scene.rock.shape = CEDUO_SHAPE_CYLINDER; /* k = 1/2 */
                 scene.scene.rock.height = scene.scene.rock.diameter;
                 expect_roll(b, 0, law == CEDUO_LAW_CRSP ? .5 : 0, FRICTION);
-                scene.scene.rock.shape = CEDUO_SPHERE;
+                scene.scene.rock.shape = CEDUO_SHAPE_SPHERE;
                 double k = law == CEDUO_LAW_CRSP ? .4 : 0;
                 for (int sign = -1; sign <= 1; sign += 2) { /* rolling already, down and up */
                     double v0 = sign * 20;
@@ -127,7 +128,7 @@ TEST(the_first_contact_after_a_flight_is_an_impact)
         assert_false(trace.pieces[0].rolls);
         assert_true(trace.pieces[1].rolls);
         expect_relative(trace.pieces[1].vx, u, 1e-13);
-        assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+        assert_int_equal(trace.trajectory.end, CEDUO_END_AT_REST);
         expect_relative(trace.trajectory.x - trace.pieces[1].x, (1 + k) * u * u / (2 * G * mu), 1e-11);
         scene.scene.simulation.friction_bound = false; /* each radius takes a share */
         assert_int_equal(line_scene_follow(&scene, &trace), CEDUO_OK);

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stands through the years: closed forms, and rules for any stand. */
+#include "core/stand/adc.h"
+#include "core/stand/rotation.h"
 #include "expect.h"
 #include "local.h"
+#include "scene/stand.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The four rounding modes of IEEE 754: closed forms agree to 1e-12, statistics within their error. bench_rounding.c measures
  * how far single trajectories diverge. */
+#include "core/runs/run.h"
 #include "expect.h"
 
 #include <fenv.h>
@@ -84,7 +85,7 @@ TEST(the_distance_to_a_stop)
             double k = law == CEDUO_LAW_LUMPED ? 0 : .4; /* a rolling sphere */
             line_scene_release(&scene, 10, 0, 5, 0, k > 0 ? 5 : 0);
             follow(&scene, modes[m], &trace);
-            assert_int_equal(trace.trajectory.end, CEDUO_AT_REST);
+            assert_int_equal(trace.trajectory.end, CEDUO_END_AT_REST);
             expect_near(trace.trajectory.x, 10 + (1 + k) * 25 / (2 * 9.81 * .3));
         }
 }
@@ -144,7 +145,7 @@ TEST(statistics_agree_within_their_error)
         paper_site_init(&site);
         site.scene.simulation.friction_bound = kind & 8;
         paper_site_read_theta(&site, kind & 2 ? PAPER_HEIGHT : PAPER_ANGLE);
-        site.scene.slope.facets = kind & 4 ? CEDUO_BOTH : CEDUO_AGAINST;
+        site.scene.slope.facets = kind & 4 ? CEDUO_FACETS_BOTH : CEDUO_FACETS_AGAINST;
         site.scene.simulation.law = kind & 1 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
         double contacts0, contacts, moved = 0;
         struct ceduo_arrivals near = arrive(&site.scene, FE_TONEAREST, &contacts0);

@@ -2,11 +2,14 @@
 /* The program's walk and the slow one, rock by rock, with the same facet draws.
  *
  * Trajectories are chaotic: a rounding error grows from contact to contact, and a decision on the knife's edge changes the
- * rest. A difference is therefore is_excused only in three cases: - the slow walk with start, rock and draws changed by 1e-13 of
- * their size differs from itself equally at the same contact; - the rock's energy was below the rounding of its height, so that
- * a double cannot tell if it passes the next vertex; - rounding alone decides the direction of a roll (Rt = 0 leaves no speed
- * along the ground). Few rocks may need an excuse. */
+ * rest. A difference is therefore is_excused only in three cases: - the slow walk with start, rock and draws changed by 1e-13
+ * of their size differs from itself equally at the same contact; - the rock's energy was below the rounding of its height, so
+ * that a double cannot tell if it passes the next vertex; - rounding alone decides the direction of a roll (Rt = 0 leaves no
+ * speed along the ground). Few rocks may need an excuse. */
+#include "ceduo/simulate.h"
 #include "expect.h"
+#include "scene/rock.h"
+#include "scene/slope.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -118,7 +121,7 @@ static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct li
     const struct slow_def def = {.count = slope->vertices - 1,
                                  .segments = segments,
                                  .law = scene->simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
-                                 .facets = slope->facets == CEDUO_BOTH ? SLOW_BOTH : SLOW_AGAINST,
+                                 .facets = slope->facets == CEDUO_FACETS_BOTH ? SLOW_BOTH : SLOW_AGAINST,
                                  .scale_rn = scene->simulation.scale_rn,
                                  .friction_bound = scene->simulation.friction_bound,
                                  .gravity = nudge(scene->simulation.gravity, change),
@@ -136,7 +139,7 @@ static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct li
                                  .on_contact = note_contact};
     const struct slow_trajectory trajectory = slow_walk(&def);
     const struct slow_crossing *c = &trajectory.crossing;
-    static const int ends[] = {[SLOW_REST] = CEDUO_AT_REST, [SLOW_LEFT] = CEDUO_LEFT_SLOPE, [SLOW_UNFINISHED] = -1};
+    static const int ends[] = {[SLOW_REST] = CEDUO_END_AT_REST, [SLOW_LEFT] = CEDUO_END_LEFT_SLOPE, [SLOW_UNFINISHED] = -1};
     t->end = ends[trajectory.end];
     t->contacts = t->end < 0 ? CONTACTS + 1 : trajectory.contacts;
     t->x = trajectory.x;
@@ -325,7 +328,7 @@ TEST(sixteen_combinations_on_the_slope_of_table_3)
     for (int i = 0; i < 16; i++) {
         paper_site_init(&site);
         paper_site_read_theta(&site, i & 1 ? PAPER_HEIGHT : PAPER_ANGLE);
-        site.scene.slope.facets = i & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
+        site.scene.slope.facets = i & 2 ? CEDUO_FACETS_BOTH : CEDUO_FACETS_AGAINST;
         site.scene.simulation.law = i & 4 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
         site.scene.simulation.friction_bound = i & 8;
         struct tally tally = {0};

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow threads */
 /* Runs of many rocks: their means compared with independent implementations; only the scene affects them. */
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
 #include "expect.h"
 #include "local.h"
 
@@ -47,13 +49,13 @@ struct combination {
 };
 
 static const struct combination combinations[] = {
-    {CEDUO_LAW_LUMPED, CEDUO_AGAINST, PAPER_ANGLE, 200000, 20.612, .005, .001, 114.69, .05, .01, 99.13, .009, .01},
-    {CEDUO_LAW_LUMPED, CEDUO_AGAINST, PAPER_HEIGHT, 200000, 24.441, .007, .001, 155.56, .09, .01, 100, 0, .01},
-    {CEDUO_LAW_LUMPED, CEDUO_BOTH, PAPER_HEIGHT, 100000, 17.383, .018, .001, 89.40, .15, .01, 75.5, .1, .1},
-    {CEDUO_LAW_LUMPED, CEDUO_BOTH, PAPER_ANGLE, 60000, 14.10, .02, .01, 65.8, .1, .1, 7.79, .02, .01},
-    {CEDUO_LAW_CRSP, CEDUO_AGAINST, PAPER_HEIGHT, 200000, 10.926, .003, .001, 42.92, .02, .01, 100, 0, .01},
-    {CEDUO_LAW_CRSP, CEDUO_AGAINST, PAPER_ANGLE, 100000, 6.670, .006, .001, 18.86, .03, .01, 88.1, .07, .1},
-    {CEDUO_LAW_CRSP, CEDUO_BOTH, PAPER_HEIGHT, 100000, 5.946, .009, .001, 15.84, .04, .01, 59.2, .11, .1},
+    {CEDUO_LAW_LUMPED, CEDUO_FACETS_AGAINST, PAPER_ANGLE, 200000, 20.612, .005, .001, 114.69, .05, .01, 99.13, .009, .01},
+    {CEDUO_LAW_LUMPED, CEDUO_FACETS_AGAINST, PAPER_HEIGHT, 200000, 24.441, .007, .001, 155.56, .09, .01, 100, 0, .01},
+    {CEDUO_LAW_LUMPED, CEDUO_FACETS_BOTH, PAPER_HEIGHT, 100000, 17.383, .018, .001, 89.40, .15, .01, 75.5, .1, .1},
+    {CEDUO_LAW_LUMPED, CEDUO_FACETS_BOTH, PAPER_ANGLE, 60000, 14.10, .02, .01, 65.8, .1, .1, 7.79, .02, .01},
+    {CEDUO_LAW_CRSP, CEDUO_FACETS_AGAINST, PAPER_HEIGHT, 200000, 10.926, .003, .001, 42.92, .02, .01, 100, 0, .01},
+    {CEDUO_LAW_CRSP, CEDUO_FACETS_AGAINST, PAPER_ANGLE, 100000, 6.670, .006, .001, 18.86, .03, .01, 88.1, .07, .1},
+    {CEDUO_LAW_CRSP, CEDUO_FACETS_BOTH, PAPER_HEIGHT, 100000, 5.946, .009, .001, 15.84, .04, .01, 59.2, .11, .1},
 };
 
 static void choose(const struct combination *c)
@@ -83,7 +85,7 @@ TEST(means_of_the_combinations_beside_table_5)
 
 TEST(hardly_any_rock_passes_crsp_with_facets_to_both_sides)
 {
-    choose(&(struct combination){.law = CEDUO_LAW_CRSP, .facets = CEDUO_BOTH, .theta = PAPER_ANGLE});
+    choose(&(struct combination){.law = CEDUO_LAW_CRSP, .facets = CEDUO_FACETS_BOTH, .theta = PAPER_ANGLE});
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 20000, 2);
     struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT(a.reached, <=, 3); /* 1 in 10^5: more than 3 of 20 000 has probability 6e-5 */
@@ -125,8 +127,8 @@ TEST(figures_of_an_arrival_are_consistent)
     struct ceduo_estimate mean = ceduo_run_energy(run, 0, &reached);
     ROWS(EXPECT, (reached, ==, a.reached), (mean.mean, ==, a.energy.mean), (mean.se, ==, a.energy.se));
     struct ceduo_ends ends = read_ends(run);
-    assert_int_equal(ends.count[CEDUO_AT_REST] + ends.count[CEDUO_LEFT_SLOPE] + ends.count[CEDUO_UNFINISHED], 5000);
-    assert_int_equal(ends.stop_x.n, ends.count[CEDUO_AT_REST]);
+    assert_int_equal(ends.count[CEDUO_END_AT_REST] + ends.count[CEDUO_END_LEFT_SLOPE] + ends.count[CEDUO_END_UNFINISHED], 5000);
+    assert_int_equal(ends.stop_x.n, ends.count[CEDUO_END_AT_REST]);
     ROWS(EXPECT, (ends.stop_p50, <=, ends.stop_p95), (ends.stop_p95, <=, ends.stop_max), (ends.stop_max, ==, ends.stop_x.max));
 }
 
@@ -308,13 +310,13 @@ TEST(releases_and_rocks_follow_their_distributions)
 {
     choose(&combinations[4]);
     struct ceduo_scene *s = &site.scene;
-    s->release.x = (struct ceduo_number){2, 1.5, CEDUO_UNIFORM};
-    s->release.height = (struct ceduo_number){1, .3, CEDUO_NORMAL};
-    s->release.vx = (struct ceduo_number){1, .5, CEDUO_NORMAL};
-    s->release.vz = (struct ceduo_number){-1, .5, CEDUO_UNIFORM};
-    s->release.spin = (struct ceduo_number){2, 3, CEDUO_NORMAL};
+    s->release.x = (struct ceduo_number){2, 1.5, CEDUO_SPREAD_UNIFORM};
+    s->release.height = (struct ceduo_number){1, .3, CEDUO_SPREAD_NORMAL};
+    s->release.vx = (struct ceduo_number){1, .5, CEDUO_SPREAD_NORMAL};
+    s->release.vz = (struct ceduo_number){-1, .5, CEDUO_SPREAD_UNIFORM};
+    s->release.spin = (struct ceduo_number){2, 3, CEDUO_SPREAD_NORMAL};
     s->rock = ceduo_scene_default().rock;
-    s->rock.diameter = (struct ceduo_number){.68, .1, CEDUO_NORMAL};
+    s->rock.diameter = (struct ceduo_number){.68, .1, CEDUO_SPREAD_NORMAL};
     assert_int_equal(ceduo_scene_check(s, NULL), CEDUO_OK);
     struct drawn d = draw_releases(s, 20000);
     const double even = 1 / sqrt(3);
@@ -334,7 +336,7 @@ TEST(releases_and_rocks_follow_their_distributions)
 TEST(a_lumped_rock_with_many_masses_has_its_own_energies)
 {
     choose(&combinations[0]);
-    site.scene.rock.density = (struct ceduo_number){2600, 300, CEDUO_UNIFORM};
+    site.scene.rock.density = (struct ceduo_number){2600, 300, CEDUO_SPREAD_UNIFORM};
     LOCAL(ceduo_run, run) = run_scene(&site.scene, 50000, 2);
     struct ceduo_arrivals a = read_arrivals(run, 0);
     /* the trajectory does not depend on the mass */
@@ -380,13 +382,13 @@ TEST(grounds_follow_their_distributions)
     static struct line_scene flat;
     const double x[] = {0, 1000}, z[] = {0, 0};
     line_scene_init(&flat, 2, x, z, (struct line_ground){.3, .8, .5}, .01, CEDUO_LAW_LUMPED);
-    flat.segments[0].rn = (struct ceduo_number){.3, .05, CEDUO_NORMAL};
-    flat.segments[0].rt = (struct ceduo_number){.8, .1, CEDUO_UNIFORM};
+    flat.segments[0].rn = (struct ceduo_number){.3, .05, CEDUO_SPREAD_NORMAL};
+    flat.segments[0].rt = (struct ceduo_number){.8, .1, CEDUO_SPREAD_UNIFORM};
     line_scene_release(&flat, 500, 10, 4, 0, 0);
     struct first_contact f = first_contacts(&flat.scene);
     expect_moments("Rn", &f.rn, .3, .05 * CUT_SD);
     expect_moments("Rt", &f.rt, .8, .1 / sqrt(3));
-    flat.segments[0].rn = (struct ceduo_number){.95, .2, CEDUO_NORMAL}; /* truncated at 1 as well */
+    flat.segments[0].rn = (struct ceduo_number){.95, .2, CEDUO_SPREAD_NORMAL}; /* truncated at 1 as well */
     f = first_contacts(&flat.scene);
     double a = -3, b = .25, pi = acos(-1), p = (erfc(-b / sqrt(2)) - erfc(-a / sqrt(2))) / 2;
     double shift = (exp(-a * a / 2) - exp(-b * b / 2)) / sqrt(2 * pi) / p;
@@ -399,8 +401,8 @@ TEST(a_spread_of_0_changes_nothing)
     choose(&combinations[5]);
     LOCAL(ceduo_run, one) = run_scene(&site.scene, 3000, 2);
     for (size_t j = 0; j < PAPER_SEGMENTS; j++)
-        site.segments[j].rn.kind = site.segments[j].rt.kind = CEDUO_UNIFORM;
-    site.scene.release.x.kind = site.scene.release.vx.kind = site.scene.rock.diameter.kind = CEDUO_UNIFORM;
+        site.segments[j].rn.kind = site.segments[j].rt.kind = CEDUO_SPREAD_UNIFORM;
+    site.scene.release.x.kind = site.scene.release.vx.kind = site.scene.rock.diameter.kind = CEDUO_SPREAD_UNIFORM;
     LOCAL(ceduo_run, two) = run_scene(&site.scene, 3000, 2);
     expect_same_run(one, two);
 }
@@ -462,7 +464,7 @@ TEST(unfinished_rocks_count_for_the_upper_bound)
     struct ceduo_arrivals a = read_arrivals(run, 0);
     EXPECT_IS(a, (unfinished, 5), (reached, 0), (reach.hi, 1), (reach.lo, 0), (exceed.hi, 1));
     struct ceduo_ends ends = read_ends(run);
-    assert_int_equal(ends.count[CEDUO_UNFINISHED], 5);
+    assert_int_equal(ends.count[CEDUO_END_UNFINISHED], 5);
     EXPECT_NAN(ends.stop_p50, ends.stop_max);
 }
 
@@ -480,7 +482,7 @@ TEST(unfinished_blocks_count_with_their_weights)
     flat.segments[0].rn = flat.segments[0].rt = ceduo_number(0);
     flat.segments[0].friction = 1;
     line_scene_release(&flat, 100, 1, 0, 0, 0);
-    flat.scene.release.x = (struct ceduo_number){.mean = 100, .spread = 50, .kind = CEDUO_UNIFORM};
+    flat.scene.release.x = (struct ceduo_number){.mean = 100, .spread = 50, .kind = CEDUO_SPREAD_UNIFORM};
     flat.control = (struct ceduo_control){.x = 600, .accepted = NAN, .measured_speed = NAN};
     flat.scene.controls_count = 1;
     flat.scene.blocks = &blocks;
@@ -496,13 +498,13 @@ TEST(unfinished_blocks_count_with_their_weights)
         assert_int_equal(ceduo_tracer_run(f, r, NULL, &trajectory, &crossing), CEDUO_OK);
         all += weights[r];
         squares += weights[r] * weights[r];
-        unfinished += trajectory.end == CEDUO_UNFINISHED ? weights[r] : 0;
+        unfinished += trajectory.end == CEDUO_END_UNFINISHED ? weights[r] : 0;
     }
     ROWS(EXPECT, (a.reached, ==, 0), (a.unfinished, >, ROCKS / 4), (a.unfinished, <, ROCKS * 3 / 4));
     EXPECT(fabs(unfinished / all - (double)a.unfinished / ROCKS), >, .01); /* weights matter */
     const double z2 = 1.959963984540054 * 1.959963984540054;
     double of_equal = ceduo_wilson(unfinished / all, unfinished / all, all * all / squares).hi;
     double hi = fmax(of_equal, unfinished / all + z2 / (ROCKS + z2));
-    EXPECT_NEAR(a.missed[CEDUO_UNFINISHED], unfinished / all, 1e-12);
+    EXPECT_NEAR(a.missed[CEDUO_END_UNFINISHED], unfinished / all, 1e-12);
     EXPECT_NEAR(a.reach.hi, hi, 1e-12);
 }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Energy taken by a hit, stems that a rock flies over, and rocks that stems stop. */
+#include "core/runs/run.h"
+#include "core/stand/energy.h"
 #include "expect.h"
 #include "local.h"
 
@@ -14,7 +16,7 @@ static void plant_dorren(double from, double to)
     struct ceduo_belt *belt = plant_belt(from, to, 800, .4);
     plant_trees(belt, 1500, .3);
     plant_shoots(belt, 3200, .12);
-    belt->stand.energy = CEDUO_DORREN;
+    belt->stand.energy = CEDUO_ENERGY_MODEL_DORREN;
     belt->stand.fracture_ratio = 1.7;
 }
 
@@ -24,7 +26,7 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
     clear_plane(520);
     plant_dorren(10, 510);
     for (SWEEP(rock, 5000)) {
-        assert_int_equal(sweep.trajectory.end, CEDUO_LEFT_SLOPE);
+        assert_int_equal(sweep.trajectory.end, CEDUO_END_LEFT_SLOPE);
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_encounter *s = &sweep.stems[i];
             double max = 1.7 * 38.7 * pow(100 * s->dbh, 2.31), u = fabs(s->y) / ((B + s->dbh) / 2);
@@ -51,9 +53,9 @@ TEST(hits_off_centre_take_their_share)
     struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
     plant_trees(belt, 300, .3);
     belt->stand.trees[0].volume = volume;
-    belt->stand.energy = CEDUO_BRAUNER;
+    belt->stand.energy = CEDUO_ENERGY_MODEL_BRAUNER;
     belt->stand.u = u_J_m3;
-    belt->stand.offset = CEDUO_OFFSET_BY_ECCENTRICITY;
+    belt->stand.offset = CEDUO_ENERGY_OFFSET_BY_ECCENTRICITY;
     for (SWEEP(rock, 2000)) {
         ends[sweep.trajectory.end]++;
         for (size_t i = 0; i < sweep.count; i++) {
@@ -65,7 +67,7 @@ TEST(hits_off_centre_take_their_share)
         }
     }
     EXPECT(whole, >, 100);
-    EXPECT(ends[CEDUO_STOPPED_BY_STEMS], >, 1000);
+    EXPECT(ends[CEDUO_END_STOPPED_BY_STEMS], >, 1000);
 }
 
 /* The hit between two trajectory segments, and its effect on the speed. */
@@ -128,7 +130,7 @@ TEST(a_hit_scales_speed_and_spin_with_the_remaining_energy)
             s.moment = spins ? sweep.trajectory.rock.moment : 0;
             s.left = NAN;
             sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.segment = after_hit, .stem = at_hit, .context = &s});
-            stopped += sweep.trajectory.end == CEDUO_STOPPED_BY_STEMS;
+            stopped += sweep.trajectory.end == CEDUO_END_STOPPED_BY_STEMS;
         }
         sweep_end();
         ROWS(EXPECT, (s.hits, >, 10000), (s.checked, >=, s.hits - 2000), (stopped, >, 100));
@@ -285,8 +287,8 @@ static void expect_run_stopped(const struct sample *stops, uint64_t rocks)
 {
     LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, rocks, 2);
     struct ceduo_ends ends = read_ends(run);
-    ROWS(assert_int_equal, (ends.count[CEDUO_STOPPED_BY_STEMS], stops->n), (ends.count[CEDUO_LEFT_SLOPE], rocks - stops->n),
-         (ends.stop_x.n, stops->n));
+    ROWS(assert_int_equal, (ends.count[CEDUO_END_STOPPED_BY_STEMS], stops->n),
+         (ends.count[CEDUO_END_LEFT_SLOPE], rocks - stops->n), (ends.stop_x.n, stops->n));
     double sum = 0;
     for (size_t i = 0; i < stops->n; i++)
         sum += stops->values[i];
@@ -304,11 +306,11 @@ static void expect_stopped(const char *name, uint64_t rocks)
     struct first_stem law = {10, 500, per_metre(30, B + .2)};
     for (SWEEP(rock, rocks)) {
         if (sweep.count == 0) {
-            assert_int_equal(sweep.trajectory.end, CEDUO_LEFT_SLOPE);
+            assert_int_equal(sweep.trajectory.end, CEDUO_END_LEFT_SLOPE);
             continue;
         }
         const struct ceduo_stem_encounter *s = sweep.stems;
-        if (sweep.count != 1 || sweep.trajectory.end != CEDUO_STOPPED_BY_STEMS || sweep.trajectory.x != s->x ||
+        if (sweep.count != 1 || sweep.trajectory.end != CEDUO_END_STOPPED_BY_STEMS || sweep.trajectory.x != s->x ||
             s->taken != s->before)
             fail_msg("%s: rock %ju is not stopped at %.17g", name, (uintmax_t)rock, s->x);
         sample_add(&stops, sweep.trajectory.x);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stems drawn lazily along a trajectory, compared with a full map in the plane. */
+#include "ceduo/simulate.h"
 #include "expect.h"
 
 #include <stdlib.h>

@@ -2,7 +2,9 @@
 /* tags: slow */
 /* Numbers of stems that rocks meet, on their trajectory and per stool, compared with closed forms (Cauchy, Crofton,
  * Poisson). */
+#include "core/stand/adc.h"
 #include "expect.h"
+#include "scene/stand.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -63,7 +65,7 @@ TEST(rocks_of_many_sizes_meet_the_stems_of_their_mean)
 {
     clear_plane(520);
     plant_plot(1, 10, 510);
-    plane.line.scene.rock.diameter = (struct ceduo_number){B, .3, CEDUO_UNIFORM};
+    plane.line.scene.rock.diameter = (struct ceduo_number){B, .3, CEDUO_SPREAD_UNIFORM};
     struct met m = meet(3100, 500);
     expect_mean("stems per metre, B .38 to .98 m", &m.stems, per_metre(9076, B + .061));
 }

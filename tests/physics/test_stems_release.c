@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stems around a release in the forest, and ground covered twice: as dense as elsewhere, each stem met once. */
+#include "ceduo/simulate.h"
 #include "expect.h"
 
 #include <gsl/gsl_linalg.h>
@@ -119,7 +120,7 @@ TEST(ground_covered_twice_has_its_stems_once)
     for (uint64_t rock = 0; rock < 2500; rock++) {
         struct cover c = {from, from, 0, 1};
         sweep_watched(rock, &(struct ceduo_trajectory_callbacks){.segment = cover_piece, .stem = cover_stem, .context = &c});
-        assert_int_equal(sweep.trajectory.end, CEDUO_AT_REST);
+        assert_int_equal(sweep.trajectory.end, CEDUO_END_AT_REST);
         ROWS(EXPECT, (c.turns, >, 10), (c.lo, >, 200), (c.lo, <, 320), (c.hi, >, 500));
         size_t after = 0;
         for (size_t i = 0; i < sweep.count; i++)
@@ -158,7 +159,7 @@ static void expect_even_court(const char *name, enum way_out out, double per_m, 
     bins.from = out == AHEAD ? RELEASE : RELEASE - reach;
     bins.k = out == AHEAD ? 32 : (size_t)(2 * reach / bins.width);
     for (SWEEP(rock, rocks)) {
-        assert_int_equal(sweep.trajectory.end, CEDUO_LEFT_SLOPE);
+        assert_int_equal(sweep.trajectory.end, CEDUO_END_LEFT_SLOPE);
         assert_true(out != AHEAD_AND_BACK || sweep.trajectory.x == 0);
         for (size_t i = 0; i < sweep.count; i++)
             bins_note(&bins, sweep.stems[i].x);

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs among stems: the test site of Ciabocco, Boccia and Ripa 2009, several options, equal bits and equal rocks. */
+#include "core/runs/pool.h"
+#include "core/runs/result.h"
+#include "core/runs/run.h"
+#include "core/runs/statistics.h"
 #include "expect.h"
 #include "local.h"
 
@@ -26,7 +30,7 @@ TEST(rocks_on_the_papers_site_arrive_as_in_an_independent_implementation)
     struct ceduo_arrivals a = read_arrivals(run, 0);
     struct ceduo_ends e = read_ends(run);
     double n = (double)rocks, pass = a.reach.mean;
-    double stopped = (double)e.count[CEDUO_STOPPED_BY_STEMS] / n;
+    double stopped = (double)e.count[CEDUO_END_STOPPED_BY_STEMS] / n;
     expect_close("kJ at 135 m", a.energy.mean / 1e3, a.energy.se / 1e3, other.energy, .1);
     /* its error is not published: half of the energy's, relatively, plus half a digit */
     ROWS(expect_close, ("m/s at 135 m", a.speed.mean, a.speed.se, other.speed, other.speed * .05 / other.energy + .005 / 4),
@@ -156,11 +160,11 @@ TEST(an_aborted_rock_has_reached_earlier_controls)
         LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, ROCKS, 1);
         struct ceduo_arrivals a = read_arrivals(run, 0);
         EXPECT_IS(a, (reached, ROCKS), (unfinished, 0));
-        assert_int_equal(read_ends(run).count[CEDUO_UNFINISHED], ROCKS);
+        assert_int_equal(read_ends(run).count[CEDUO_END_UNFINISHED], ROCKS);
         struct ceduo_trajectory trajectory;
         struct ceduo_crossing c;
         assert_int_equal(ceduo_trajectory_run(&plane.line.scene, &plane.line.option, 0, NULL, &trajectory, &c), CEDUO_OK);
-        EXPECT_IS(trajectory, (end, CEDUO_UNFINISHED), (contacts, contact));
+        EXPECT_IS(trajectory, (end, CEDUO_END_UNFINISHED), (contacts, contact));
         ROWS(EXPECT, (trajectory.x, >, 10000), (trajectory.x, <, 20000), (trajectory.z, >, 2));
         assert_true(c.reached);
     }
@@ -176,7 +180,7 @@ TEST(an_aborted_rock_has_reached_the_end_of_its_roll)
     trees->group = 200;
     trees->group_radius = 100;
     sweep_one(0);
-    EXPECT_IS(sweep.trajectory, (end, CEDUO_UNFINISHED), (stems_hit, sweep.count));
+    EXPECT_IS(sweep.trajectory, (end, CEDUO_END_UNFINISHED), (stems_hit, sweep.count));
     double before = fmax(sweep.stems[sweep.count - 1].x, (double)(sweep.trajectory.contacts - 1) * (B / 2));
     ROWS(EXPECT, (before, >, 10000), (sweep.trajectory.x, >, before + 1e-6), (sweep.trajectory.x, <, before + B / 2));
     plane.line.scene.controls_count = 1;

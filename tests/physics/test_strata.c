@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Other obstacles in a stand: stumps, lying logs, trees in groups. */
+#include "ceduo/years.h"
+#include "core/runs/assess.h"
 #include "expect.h"
+#include "scene/stand.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
@@ -18,7 +21,7 @@ TEST(stumps_are_met_as_low_trees)
     for (int low = 0; low < 2; low++) {
         clear_plane(520); /* the rock's underside is at .95 to 1 m */
         struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
-        belt->stand.energy = CEDUO_DORREN;
+        belt->stand.energy = CEDUO_ENERGY_MODEL_DORREN;
         belt->stand.stumps = (struct ceduo_stumps){.per_ha = 900, .diameter = .25, .height = low ? .9 : 1.1, .energy = 1500};
         for (SWEEP(number, 800)) {
             for (size_t i = 0; i < sweep.count; i++) {
@@ -87,11 +90,11 @@ TEST(the_index_has_stumps_and_logs)
          (r.dissipated, before.dissipated + 67.5 * (stumps * 3e3 + logs * 8e3), 1e-6));
     EXPECT(r.free_run_probability, ==, before.free_run_probability);
     EXPECT_IS(r, (stumps_per_ha, 500), (logs_per_ha, 80));
-    assert_true(r.warnings & CEDUO_WARN_LOW);
+    assert_true(r.warnings & CEDUO_WARNING_LOW);
     site.belts[0] = belt;
     site.scene.simulation.contact_dbh = .065; /* nor do the paper's stems count */
     struct ceduo_index i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
-    EXPECT(i.contact, ==, CEDUO_FAIL);
+    EXPECT(i.contact, ==, CEDUO_LIGHT_FAIL);
     site.scene.simulation.contact_dbh = 0;
     belt.stand.shoots_count = belt.stand.trees_count = 0; /* a clearing */
     belt.stand.stools_per_ha = 0;
@@ -241,7 +244,7 @@ TEST(groups_stand_around_the_release)
     line_scene_release(&plane.line, 60, 1, -1200, 0, 0);
     struct spread met = {0};
     for (SWEEP(number, 300)) {
-        EXPECT(sweep.trajectory.end, ==, CEDUO_LEFT_SLOPE);
+        EXPECT(sweep.trajectory.end, ==, CEDUO_END_LEFT_SLOPE);
         spread_add(&met, (double)sweep.count / 50);
     }
     expect_mean("per metre behind the release, dense", &met, per_metre(1e5, B + TREE));

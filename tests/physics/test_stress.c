@@ -8,6 +8,8 @@
  * An invalid operation, a division by zero or an overflow during a trajectory fails the test, except in flights with a
  * horizontal speed below 1e-150 m/s. There the time to the next vertex overflows by design, even to infinity. Times 0 this is
  * NaN, and a comparison with it counts as a contact. (Reading a scene may compare with NaN, which means "not given".) */
+#include "ceduo/simulate.h"
+#include "core/runs/run.h"
 #include "expect.h"
 #include "full.h"
 #include "local.h"
@@ -114,7 +116,7 @@ static void expect_counts(const struct line_scene *s)
     for (size_t i = 0; i < n; i++) {
         struct ceduo_arrivals a = read_arrivals(run, i);
         ROWS(EXPECT, (a.released, ==, run_rocks), (a.reached, <=, before), (a.exceeded, <=, a.reached),
-             (a.unfinished, <=, ends.count[CEDUO_UNFINISHED]), (a.reached + a.unfinished, <=, run_rocks));
+             (a.unfinished, <=, ends.count[CEDUO_END_UNFINISHED]), (a.reached + a.unfinished, <=, run_rocks));
         ROWS(expect_distribution, (&a.speed, a.reached), (&a.energy, a.reached), (&a.height, a.reached));
         before = a.reached;
     }
@@ -147,12 +149,12 @@ TEST(random_scenes)
         sum += t.ends[i];
     assert_int_equal(sum, scenes);
     if (scenes >= 1000) /* enough scenes for statistics */
-        ROWS(EXPECT, (t.flights, >, 4 * scenes), (t.impacts, >, scenes), (t.ends[CEDUO_AT_REST], >, scenes / 10),
-             (t.ends[CEDUO_LEFT_SLOPE], >, scenes / 10), (t.crossed, >, scenes / 10), (of_arm.crossed, >, scenes / 40));
+        ROWS(EXPECT, (t.flights, >, 4 * scenes), (t.impacts, >, scenes), (t.ends[CEDUO_END_AT_REST], >, scenes / 10),
+             (t.ends[CEDUO_END_LEFT_SLOPE], >, scenes / 10), (t.crossed, >, scenes / 10), (of_arm.crossed, >, scenes / 40));
     print_message("%ju scenes: %ju at rest, %ju left, %ju unfinished (%ju may last, %ju sink in a crack), %ju contacts; "
                   "%ju trajectories differ without callbacks\n",
-                  (uintmax_t)scenes, (uintmax_t)t.ends[CEDUO_AT_REST], (uintmax_t)t.ends[CEDUO_LEFT_SLOPE],
-                  (uintmax_t)t.ends[CEDUO_UNFINISHED], (uintmax_t)t.lasting, (uintmax_t)t.cracks, (uintmax_t)t.contacts,
+                  (uintmax_t)scenes, (uintmax_t)t.ends[CEDUO_END_AT_REST], (uintmax_t)t.ends[CEDUO_END_LEFT_SLOPE],
+                  (uintmax_t)t.ends[CEDUO_END_UNFINISHED], (uintmax_t)t.lasting, (uintmax_t)t.cracks, (uintmax_t)t.contacts,
                   (uintmax_t)parted);
     EXPECT(parted, <=, 2 + scenes / 1000);
     EXPECT(t.cracks, <=, 2 + scenes / 20000);
@@ -187,7 +189,7 @@ static void try_release(double from, double height, double vx, double vz)
     for (int kind = 0; kind < 16; kind++) {
         s.scene.simulation.law = kind & 1 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
         s.scene.simulation.friction_bound = kind & 8;
-        s.scene.slope.facets = kind & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
+        s.scene.slope.facets = kind & 2 ? CEDUO_FACETS_BOTH : CEDUO_FACETS_AGAINST;
         for (size_t j = 0; j + 1 < s.scene.slope.vertices; j++) {
             s.segments[j].roughness_m = NAN;
             s.segments[j].roughness_rad = kind & 4 ? .4 : 0;
@@ -197,7 +199,7 @@ static void try_release(double from, double height, double vx, double vz)
         expect_the_same_again(&s, 1);
         expect_counts(&s);
     }
-    assert_int_equal(t.ends[CEDUO_AT_REST] + t.ends[CEDUO_LEFT_SLOPE] + t.ends[CEDUO_UNFINISHED], number);
+    assert_int_equal(t.ends[CEDUO_END_AT_REST] + t.ends[CEDUO_END_LEFT_SLOPE] + t.ends[CEDUO_END_UNFINISHED], number);
 }
 
 TEST(grazing_contacts)
@@ -355,7 +357,7 @@ TEST(roughness_up_to_89_degrees)
             release(1, .5, 1, 0);
             s.scene.simulation.law = kind & 1 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
             s.scene.simulation.friction_bound = kind & 4;
-            s.scene.slope.facets = kind & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
+            s.scene.slope.facets = kind & 2 ? CEDUO_FACETS_BOTH : CEDUO_FACETS_AGAINST;
             for (size_t j = 0; j < 4; j++) {
                 s.segments[j].roughness_m = NAN;
                 s.segments[j].roughness_rad = degrees[i] * M_PI / 180;
@@ -374,7 +376,7 @@ TEST(rebounds_without_end)
     release(5, 2, 0, 0);
     struct result r;
     follow(&s, 0, &r);
-    EXPECT_IS(r.trajectory, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 5));
+    EXPECT_IS(r.trajectory, (end, CEDUO_END_UNFINISHED), (contacts, CEDUO_CONTACTS_MAX), (x, 5));
 }
 
 /* Random scenes in which a rock bounces in a crack of 12 or 42 micrometres, or of 8 nanometres. It hops along one wall at
@@ -392,11 +394,11 @@ TEST(cracks)
         invariants_expect(&scene, numbers[i], &t);
     }
     EXPECT(t.cracks, ==, LENGTH(numbers));
-    EXPECT(t.ends[CEDUO_UNFINISHED], ==, LENGTH(numbers));
+    EXPECT(t.ends[CEDUO_END_UNFINISHED], ==, LENGTH(numbers));
     line_scene_random(&scene, 3596987, LASTING_EVERY); /* a crack of 60 nm, in which it rests on the wall */
     scene.scene.simulation.friction_bound = false;
     invariants_expect(&scene, 3596987, &t);
-    EXPECT(t.last.end, ==, CEDUO_AT_REST);
+    EXPECT(t.last.end, ==, CEDUO_END_AT_REST);
 }
 
 TEST(pits)

@@ -2,8 +2,8 @@
 /* Validation of the law arm at Tschamut: one ground fits the observed stops of three blocks of different shape. Without their
  * shapes it does not. */
 #include "expect.h"
+#include "study/observe.h"
 
-#include "ceduo/calibrate.h"
 #include "io/scene_file.h"
 #include "stops.h"
 

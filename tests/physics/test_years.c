@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: threads */
 /* An option year by year, compared with the same stands grown, simulated and assessed one by one. */
+#include "core/runs/assess.h"
+#include "core/runs/pool.h"
+#include "core/runs/result.h"
+#include "core/runs/run.h"
+#include "core/runs/year_runs.h"
+#include "core/stand/rotation.h"
 #include "expect.h"
 #include "local.h"
 
@@ -9,7 +15,6 @@
 #include <string.h>
 
 #include "ceduo/ceduo.h"
-#include "ceduo/years.h"
 #include "paper_site.h"
 #include "runs.h"
 
@@ -107,7 +112,7 @@ static struct ceduo_years *simulate_years(unsigned first, unsigned last, unsigne
 {
     struct ceduo_years *years = grow_years(first, last, step);
     LOCAL(ceduo_pool, pool) = make_pool(threads, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(rocks);
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare = simulate_bare(rocks);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, rocks), CEDUO_OK);
     return years;
 }
@@ -199,7 +204,7 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
     EXPECT(y->option.belts_count, ==, BELTS);
     struct ceduo_option option = {.belts_count = BELTS, .belts = belts};
     LOCAL(ceduo_run, run) = run_option(&wood.site.scene, &option, ROCKS, 1);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated direct;
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated direct;
     assert_int_equal(ceduo_simulated_read(run, &wood.site.scene, NULL, &direct), CEDUO_OK);
     EXPECT(y->wooded.rocks, ==, ROCKS);
     EXPECT(direct.rocks, ==, ROCKS);
@@ -220,7 +225,7 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
 
 TEST_WITH(years_equal_separate_runs, fresh, NULL)
 {
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(ROCKS);
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare = simulate_bare(ROCKS);
     LOCAL(ceduo_years, years) = simulate_years(0, 26, 1, 2, ROCKS);
     assert_int_equal(years->count, 27);
     unsigned cuts = 0;
@@ -272,7 +277,7 @@ TEST_WITH(threads_and_steps_change_nothing, fresh, NULL)
     LOCAL(ceduo_years, two) = simulate_years(0, 5, 1, 2, 3000);
     LOCAL(ceduo_years, steps) = grow_years(0, 5, 1);
     LOCAL(ceduo_pool, pool) = make_pool(2, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(3000);
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare = simulate_bare(3000);
     static const uint64_t rocks[] = {1, 1024, 1500, 3000, 2000}; /* runs never shrink */
     for (size_t i = 0; i < sizeof rocks / sizeof rocks[0]; i++)
         assert_int_equal(ceduo_years_simulate(steps, pool, &bare, rocks[i]), CEDUO_OK);
@@ -288,7 +293,7 @@ TEST_WITH(a_forest_is_simulated_once, fresh, NULL)
     wood.belts[1].cut_year = 7;
     LOCAL(ceduo_years, years) = grow_years(0, 40, 1);
     LOCAL(ceduo_pool, pool) = make_pool(2, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(100);
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare = simulate_bare(100);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, 100), CEDUO_OK);
     struct ceduo_work work = ceduo_pool_work(pool);
     ROWS(EXPECT, (work.runs, ==, 7 + ROTATION), (work.runs + work.reused, ==, 41), (work.rocks, ==, 100 * work.runs));
@@ -371,9 +376,9 @@ static void expect_sum(const struct ceduo_years *years, size_t c)
     struct by_hand h = sum_by_hand(years, c);
     size_t contact = 0, free_run = 0, light = 0;
     for (size_t i = 0; i < years->count; i++) {
-        contact += years->years[i].controls[c].contact == CEDUO_FAIL;
-        free_run += years->years[i].controls[c].free_run == CEDUO_FAIL;
-        light += years->years[i].controls[c].energy == CEDUO_FAIL;
+        contact += years->years[i].controls[c].contact == CEDUO_LIGHT_FAIL;
+        free_run += years->years[i].controls[c].free_run == CEDUO_LIGHT_FAIL;
+        light += years->years[i].controls[c].energy == CEDUO_LIGHT_FAIL;
     }
     EXPECT_IS(s, (years, years->count), (simulated, years->count), (worst_year, h.worst_year), (unprotected_contact, contact),
               (unprotected_free_run, free_run), (unprotected_energy, light));
@@ -473,10 +478,10 @@ TEST_WITH(metres_felled, fresh, NULL)
 
 TEST_WITH(by_the_index_alone, fresh, NULL)
 {
-    wood.site.scene.simulation.contact_model = CEDUO_INDEX;
+    wood.site.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
     LOCAL(ceduo_years, years) = grow_years(0, 15, 1);
     LOCAL(ceduo_pool, pool) = make_pool(1, NULL);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(200);
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare = simulate_bare(200);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, 200), CEDUO_OK);
     assert_int_equal(ceduo_pool_work(pool).runs, 0);
     double worst = 0;
@@ -484,7 +489,7 @@ TEST_WITH(by_the_index_alone, fresh, NULL)
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *y = &years->years[i];
         EXPECT(y->wooded.rocks, ==, 0);
-        EXPECT(y->controls[1].energy, ==, CEDUO_UNKNOWN);
+        EXPECT(y->controls[1].energy, ==, CEDUO_LIGHT_UNKNOWN);
         if (y->controls[1].worst_adc > worst) {
             worst = y->controls[1].worst_adc;
             worst_year = y->year;
@@ -500,7 +505,7 @@ TEST_WITH(by_the_index_alone, fresh, NULL)
 TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
 {
     wood.option.belts_count = 0;
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(500);
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare = simulate_bare(500);
     LOCAL(ceduo_years, years) = simulate_years(0, 3, 1, 1, 500);
     for (size_t i = 0; i < years->count; i++) {
         assert_false(years->years[i].cut);
@@ -621,7 +626,7 @@ static void count_run(void *context, uint64_t rocks)
 TEST_WITH(a_cancelled_simulation_can_continue, fresh, NULL)
 {
     LOCAL(ceduo_years, whole) = simulate_years(0, 8, 1, 2, ROCKS);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = simulate_bare(ROCKS);
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare = simulate_bare(ROCKS);
     for (unsigned after = 0; after < 10; after += 3) {
         struct stop stop = {.cancel = after == 0, .after = after};
         struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);

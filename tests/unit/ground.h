@@ -23,7 +23,7 @@ static inline void ground_make(struct ground *g, double along, double fall, doub
         .rn = ceduo_number(0), .rt = ceduo_number(1), .roughness_m = NAN, .roughness_rad = 0, .friction = 0.25};
     g->scene.slope = (struct ceduo_slope){.vertices = 2, .x = g->x, .z = g->z, .segments = &g->segment, .segments_given = 1};
     g->scene.simulation.law = CEDUO_LAW_LUMPED;
-    g->scene.rock.shape = CEDUO_SPHERE;
+    g->scene.rock.shape = CEDUO_SHAPE_SPHERE;
     g->scene.rock.diameter = ceduo_number(1);
     g->scene.rock.density = ceduo_number(2600);
     g->scene.release.height = ceduo_number(height);

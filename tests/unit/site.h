@@ -3,6 +3,7 @@
 #ifndef SITE_H
 #define SITE_H
 
+#include "core/runs/statistics.h"
 #include "test.h"
 
 #include <math.h>
@@ -44,7 +45,7 @@ static void set_ground(struct site *s)
         s->segments[i] = (struct ceduo_segment){
             .rn = ceduo_number(0.4), .rt = ceduo_number(0.9), .roughness_m = NAN, .roughness_rad = 0.1, .friction = 0.3};
     s->scene.slope = (struct ceduo_slope){
-        .facets = CEDUO_AGAINST, .vertices = 3, .x = s->x, .z = s->z, .segments = s->segments, .origin_z = 60};
+        .facets = CEDUO_FACETS_AGAINST, .vertices = 3, .x = s->x, .z = s->z, .segments = s->segments, .origin_z = 60};
 }
 
 static void set_forest(struct site *s)
@@ -57,7 +58,7 @@ static void set_forest(struct site *s)
                                       .to_given = 70,
                                       .name = "coppice",
                                       .assumed = true,
-                                      .stand = {.system = CEDUO_COPPICE_WITH_STANDARDS,
+                                      .stand = {.system = CEDUO_SYSTEM_COPPICE_WITH_STANDARDS,
                                                 .species = -1,
                                                 .stools_per_ha = 800,
                                                 .spacing = 0.5,
@@ -69,7 +70,7 @@ static void set_forest(struct site *s)
     s->belts[1] = s->belts[0];
     s->belts[1].name = "cut";
     s->belts[1].assumed = false;
-    s->belts[1].stand = (struct ceduo_stand){.system = CEDUO_BARE, .species = -1, .u = NAN};
+    s->belts[1].stand = (struct ceduo_stand){.system = CEDUO_SYSTEM_BARE, .species = -1, .u = NAN};
     s->options[0] = (struct ceduo_option){.name = "kept", .belts_count = 1, .belts = &s->belts[0]};
     s->options[1] = (struct ceduo_option){.name = "felled", .belts_count = 1, .belts = &s->belts[1]};
 }
@@ -146,7 +147,8 @@ static void set_wood(struct site *s)
 
 static void site_init(struct site *s)
 {
-    *s = (struct site){.scene = {.title = "small",
+    *s = (struct site){.scene = {.size = sizeof(struct ceduo_scene),
+                                 .title = "small",
                                  .rock = ceduo_scene_default().rock,
                                  .simulation = ceduo_scene_default().simulation,
                                  .controls_count = 2,
@@ -163,7 +165,7 @@ static void site_init(struct site *s)
     set_wood(s);
     s->snapshot = (struct ceduo_snapshot){
         .cells = CELLS, .controls = 2, .options = 2, .cell_x = s->cell_x, .bare = &s->bare, .wooded = s->wooded};
-    s->scene.simulation.contact_model = CEDUO_INDEX;
+    s->scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
 }
 
@@ -171,7 +173,7 @@ static void site_init(struct site *s)
 static void wooded_site_init(struct site *s)
 {
     site_init(s);
-    s->scene.simulation.contact_model = CEDUO_STEMS;
+    s->scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
     s->wooded[0] = &s->wood;
     s->wooded[1] = &s->bare;
 }

@@ -4,11 +4,12 @@
  * distribution. Also p of observations made by the model itself. */
 #include "expect.h"
 #include "local.h"
+#include "study/observe.h"
+#include "study/predict.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/calibrate.h"
 #include "ceduo/ceduo.h"
 #include "unit/ground.h"
 
@@ -47,8 +48,13 @@ static struct ceduo_calibration fit(const struct ceduo_scene *scene, const struc
                                     uint64_t rocks)
 {
     const struct ceduo_calibration_scene data = {scene, &input, n, observed};
-    const struct ceduo_calibration_def def = {
-        .scenes_count = 1, .scenes = &data, .parameters_count = 1, .rocks = rocks, .seed = 1, .threads = threads};
+    const struct ceduo_calibration_def def = {.size = sizeof def,
+                                              .scenes_count = 1,
+                                              .scenes = &data,
+                                              .parameters_count = 1,
+                                              .rocks = rocks,
+                                              .seed = 1,
+                                              .threads = threads};
     struct ceduo_calibration a;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     assert_true(a.converged);
@@ -59,7 +65,7 @@ static struct ceduo_fitted fit_speed(double mean, double sd)
 {
     struct ceduo_scene scene = make_flight(0);
     const struct ceduo_observation observed = mean_speed(mean, sd);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
+    LOCAL_BY(ceduo_calibration_release) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
     struct ceduo_fitted p = a.parameters[0];
     return p;
 }
@@ -87,7 +93,7 @@ TEST(a_normal_distribution_is_found)
 {
     struct ceduo_scene scene = make_flight(0);
     const struct ceduo_observation observed = mean_speed(14, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
+    LOCAL_BY(ceduo_calibration_release) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
     const struct ceduo_fitted *p = &a.parameters[0];
     EXPECT_NEAR(p->best, 14, 0.02);
     EXPECT_NEAR(p->p2_5, 14 - 1.96, 4 * 0.19);
@@ -126,9 +132,9 @@ TEST(threads_change_nothing)
 {
     struct ceduo_scene scene = make_flight(0);
     const struct ceduo_observation observed = mean_speed(14, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration one = fit(&scene, &observed, 1, 2);
+    LOCAL_BY(ceduo_calibration_release) struct ceduo_calibration one = fit(&scene, &observed, 1, 2);
     threads = CEDUO_CALIBRATION_CHAINS + 1;
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration many = fit(&scene, &observed, 1, 2);
+    LOCAL_BY(ceduo_calibration_release) struct ceduo_calibration many = fit(&scene, &observed, 1, 2);
     threads = 1;
     EXPECT(many.draws_count, ==, one.draws_count);
     assert_memory_equal(many.draws, one.draws, one.draws_count * sizeof *one.draws);
@@ -140,7 +146,7 @@ TEST(no_information_leaves_a_uniform_distribution)
 {
     struct ceduo_scene scene = make_flight(0);
     const struct ceduo_observation observed = make_all_pass();
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
+    LOCAL_BY(ceduo_calibration_release) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
     const struct ceduo_fitted *p = &a.parameters[0];
     double sum = 0, squares = 0, n = (double)a.draws_count;
     for (size_t i = 0; i < a.draws_count; i++) {
@@ -160,7 +166,7 @@ TEST(chains_stay_within_their_bounds)
 {
     struct ceduo_scene scene = make_flight(0);
     const struct ceduo_observation observed = mean_speed(25, 1);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
+    LOCAL_BY(ceduo_calibration_release) struct ceduo_calibration a = fit(&scene, &observed, 1, 2);
     EXPECT(a.parameters[0].best, >, HI - 0.01);
     EXPECT(a.parameters[0].best, <=, HI);
     for (size_t i = 0; i < a.draws_count; i++)
@@ -218,8 +224,8 @@ TEST(one_misfit_is_enough)
         for (int check = 0; check < 2; check++) {
             struct ceduo_observation observed[3] = {make_all_pass(), make_all_pass(), make_all_pass()};
             observed[first] = mean_speed(30, 1);
-            observed[first].use = check ? CEDUO_OBSERVED_CHECK : CEDUO_OBSERVED_FIT;
-            LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, observed, 3, 2);
+            observed[first].use = check ? CEDUO_OBSERVED_USE_CHECK : CEDUO_OBSERVED_USE_FIT;
+            LOCAL_BY(ceduo_calibration_release) struct ceduo_calibration a = fit(&scene, observed, 3, 2);
             EXPECT(a.predicted[first].p_value, <, 0.001);
             EXPECT(a.predicted[2].p_value, >, 0.5);
             EXPECT(a.misfit, ==, !check);
@@ -239,7 +245,7 @@ TEST(predictions_use_other_rocks_than_the_fit)
     LOCAL(ceduo_observer, observer);
     EXPECT(ceduo_observer_create(&observed, 1, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_simulate(observer, &scene, 50, NULL, &unfitted), ==, CEDUO_OK);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit(&scene, &observed, 1, 50);
+    LOCAL_BY(ceduo_calibration_release) struct ceduo_calibration a = fit(&scene, &observed, 1, 50);
     const struct ceduo_observation_fit *at_best = &a.predicted[0].at_best;
     EXPECT(at_best->mean, !=, unfitted.mean);
     EXPECT_NEAR(at_best->mean, unfitted.mean, 5 * hypot(at_best->sd, unfitted.sd) / sqrt(50));
@@ -252,11 +258,11 @@ TEST(few_single_values_give_no_range)
     struct ceduo_observation observed[2] = {make_all_pass(), mean_speed(15, 1)};
     struct ceduo_calibration a = fit(&scene, observed, 2, 2);
     assert_true(a.predicted[1].one_lo < 15 && a.predicted[1].one_hi > 15);
-    ceduo_calibration_free(&a);
-    observed[1].use = CEDUO_OBSERVED_CHECK; /* one rock has no variance for a fit */
+    ceduo_calibration_release(&a);
+    observed[1].use = CEDUO_OBSERVED_USE_CHECK; /* one rock has no variance for a fit */
     a = fit(&scene, observed, 2, 1);
     assert_true(isnan(a.predicted[1].one_lo) && isnan(a.predicted[1].one_hi));
-    ceduo_calibration_free(&a);
+    ceduo_calibration_release(&a);
 }
 
 #define SAMPLES 400

@@ -10,7 +10,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "ceduo/observe.h"
 #include "io/file.h"
 #include "model/document.h"
 #include "scene/value.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Statistics of few values, without values, and of values outside all bins; an aborted search for a value. */
+#include "core/runs/statistics.h"
 #include "expect.h"
 #include "local.h"
 
@@ -81,7 +82,8 @@ TEST(a_search_ends_at_once)
     for (int kind = 0; kind < 4; kind++) { /* if nothing passes, all values are tried */
         struct ceduo_found found;
         double target = kind < 2 ? .3 : -1;
-        struct ceduo_find_def def = {.lo = 1, .hi = 1000, .whole = kind % 2, .target = target, .cancel = &cancel};
+        struct ceduo_find_def def = {
+            .size = sizeof(struct ceduo_find_def), .lo = 1, .hi = 1000, .whole = kind % 2, .target = target, .cancel = &cancel};
         unsigned when = UINT32_MAX;
         def.context = &when;
         def.goal = give_up;
@@ -117,13 +119,14 @@ TEST(goals_without_end)
     for (size_t i = 0; i < sizeof levels / sizeof levels[0]; i++) {
         struct ceduo_found found;
         double pair[2] = {levels[i][0], levels[i][1]};
-        const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = .5, .goal = decrease_by_steps, .context = pair};
+        const struct ceduo_find_def def = {
+            .size = sizeof(struct ceduo_find_def), .lo = 1, .hi = 9, .target = .5, .goal = decrease_by_steps, .context = pair};
         assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
         assert_true(found.found);
         EXPECT(found.value, >=, 3);
         EXPECT(found.value, <, 3 + 1e-7);
         EXPECT(found.goal_at_value, ==, levels[i][1]);
-        EXPECT(found.side, ==, CEDUO_SMALLEST);
+        EXPECT(found.side, ==, CEDUO_SIDE_SMALLEST);
     }
 }
 
@@ -139,14 +142,26 @@ TEST(few_values_and_too_many)
 {
     struct ceduo_found found;
     double top = 10;
-    struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 5.5, .goal = decrease, .context = &top, .tolerance = .5};
+    struct ceduo_find_def def = {.size = sizeof(struct ceduo_find_def),
+                                 .lo = 1,
+                                 .hi = 9,
+                                 .target = 5.5,
+                                 .goal = decrease,
+                                 .context = &top,
+                                 .tolerance = .5};
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
     assert_true(found.found);
     EXPECT(found.value, >=, 4.5);
     EXPECT(found.value, <, 4.5 + 4);
-    EXPECT(found.side, ==, CEDUO_SMALLEST);
+    EXPECT(found.side, ==, CEDUO_SIDE_SMALLEST);
     assert_int_equal(found.evaluations, 3);
-    def = (struct ceduo_find_def){.lo = 0, .hi = 1e300, .whole = true, .target = 5.5, .goal = decrease, .context = &top};
+    def = (struct ceduo_find_def){.size = sizeof(struct ceduo_find_def),
+                                  .lo = 0,
+                                  .hi = 1e300,
+                                  .whole = true,
+                                  .target = 5.5,
+                                  .goal = decrease,
+                                  .context = &top};
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
     assert_true(found.found);
     EXPECT(found.value, >=, 5);

@@ -91,7 +91,7 @@ TEST_WITH(results_of_an_older_scene_are_dropped, set_up, tear_down)
 /* Without trees, rocks move in the same way by every contact model, but the index simulates none. */
 TEST_WITH(a_contact_model_makes_another_key, set_up, tear_down)
 {
-    static const enum ceduo_contact_model models[] = {CEDUO_INDEX, CEDUO_STEMS};
+    static const enum ceduo_contact_model models[] = {CEDUO_CONTACT_MODEL_INDEX, CEDUO_CONTACT_MODEL_STEMS};
     uint64_t keys[2], years[2];
     file.scene.options[0].belts_count = 0;
     for (int i = 0; i < 2; i++) {
@@ -148,7 +148,7 @@ TEST_WITH(the_alternative_law_is_computed, set_up, tear_down)
     assert_int_equal(results.alternatives->options, 1);
     assert_int_equal(results.alternatives->controls, file.scene.controls_count);
     assert_true(results.alternatives->items[0].known && results.alternatives->items[0].stems);
-    assert_int_equal(results.alternatives->items[0].model, CEDUO_DORREN);
+    assert_int_equal(results.alternatives->items[0].model, CEDUO_ENERGY_MODEL_DORREN);
     double before = results.alternatives->items[0].arrivals.reach.mean;
     for (size_t i = 0; i < 2; i++)
         file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* not used by the scene's own law */
@@ -158,7 +158,7 @@ TEST_WITH(the_alternative_law_is_computed, set_up, tear_down)
     assert_non_null(results.alternatives);
     EXPECT(results.alternatives->items[0].arrivals.reach.mean, <, before);
     assert_null(results.snapshot);
-    file.scene.simulation.contact_model = CEDUO_INDEX;
+    file.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
     request_figures();
     ceduo_jobs_wait(jobs, true);
     collect();

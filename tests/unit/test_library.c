@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The library in a foreign program: scenes read from files, defaults, texts, and GSL errors, whose default handler would
  * abort. */
+#include "core/runs/key.h"
 #include "expect.h"
+#include "study/naslund.h"
+#include "study/surface.h"
 
 #include <gsl/gsl_errno.h>
 #include <locale.h>
@@ -17,7 +20,6 @@
 #include "base/gsl_errors.h"
 #include "base/text.h"
 #include "ceduo/ceduo.h"
-#include "ceduo/key.h"
 #include "folder.h"
 #include "study/surrogate.h"
 
@@ -458,7 +460,8 @@ TEST(one_thread_at_a_time_calls_the_caller)
     EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_OK);
     ceduo_results_release(&a);
     expect_alone();
-    struct ceduo_uncertainty_def def = {.scene = &r.scene,
+    struct ceduo_uncertainty_def def = {.size = sizeof(struct ceduo_uncertainty_def),
+                                        .scene = &r.scene,
                                         .inputs_count = r.inputs_count,
                                         .inputs = r.inputs,
                                         .points = 30,
@@ -469,7 +472,7 @@ TEST(one_thread_at_a_time_calls_the_caller)
                                         .threads = 4,
                                         .progress = on_points};
     EXPECT(ceduo_uncertainty_compute(&def, &uncertainty), ==, CEDUO_OK);
-    ceduo_uncertainty_free(&uncertainty);
+    ceduo_uncertainty_release(&uncertainty);
     expect_alone();
     ceduo_scene_file_release(&r);
     EXPECT(ceduo_scene_read("profiles/scenes/vaujany.yaml", NULL, &r), ==, CEDUO_OK);
@@ -477,7 +480,8 @@ TEST(one_thread_at_a_time_calls_the_caller)
     struct ceduo_input input = {
         .path = place, .kind = CEDUO_INPUT_RANGE, .lo = 2300, .hi = 2900, .places_count = 1, .places = &place};
     struct ceduo_calibration_scene fitted = {&r.scene, &input, r.observations_count, r.observations};
-    struct ceduo_calibration_def how = {.scenes_count = 1,
+    struct ceduo_calibration_def how = {.size = sizeof(struct ceduo_calibration_def),
+                                        .scenes_count = 1,
                                         .scenes = &fitted,
                                         .parameters_count = 1,
                                         .rocks = 20,
@@ -485,7 +489,7 @@ TEST(one_thread_at_a_time_calls_the_caller)
                                         .steps_max = 250,
                                         .progress = on_fit};
     EXPECT(ceduo_calibrate(&how, &fit), ==, CEDUO_OK);
-    ceduo_calibration_free(&fit);
+    ceduo_calibration_release(&fit);
     expect_alone();
     ceduo_scene_file_release(&r);
 }
@@ -523,6 +527,65 @@ TEST(no_seed_has_the_rocks_of_another_one_in_another_year)
             EXPECT(low[i], !=, high[k]);
 }
 
+/* ---- sizes and releases ---- */
+
+static enum ceduo_status goal_of_zero(void *context, double value, double *goal)
+{
+    (void)context, (void)value;
+    *goal = 0;
+    return CEDUO_OK;
+}
+
+TEST(structs_of_another_size_are_refused)
+{
+    struct ceduo_scene_file r;
+    EXPECT(ceduo_scene_read("profiles/scenes/vaujany.yaml", NULL, &r), ==, CEDUO_OK);
+    struct ceduo_request q = ceduo_request_default(&r.scene);
+    struct ceduo_record_def record_def = ceduo_record_def_default(&r.scene);
+    struct ceduo_uncertainty_def uncertainty_def = ceduo_uncertainty_def_default(&r.scene);
+    struct ceduo_calibration_def calibration_def = ceduo_calibration_def_default();
+    struct ceduo_find_def find_def = ceduo_find_def_default();
+    struct ceduo_results results;
+    struct ceduo_record record;
+    struct ceduo_uncertainty_result uncertainty;
+    struct ceduo_calibration fit;
+    struct ceduo_found found;
+    /* all else is valid */
+    const char *const place = "rock.density_kg_m3";
+    struct ceduo_input input = {
+        .path = place, .kind = CEDUO_INPUT_RANGE, .lo = 2300, .hi = 2900, .places_count = 1, .places = &place};
+    const struct ceduo_calibration_scene fitted = {&r.scene, &input, r.observations_count, r.observations};
+    calibration_def.scenes = &fitted;
+    calibration_def.scenes_count = calibration_def.parameters_count = uncertainty_def.inputs_count = 1;
+    uncertainty_def.inputs = &input;
+    find_def.goal = goal_of_zero;
+    q.rocks = record_def.rocks = 1;
+    EXPECT(ceduo_simulate_request(&q, NULL, &results), ==, CEDUO_OK);
+    ceduo_results_release(&results);
+    EXPECT(ceduo_record(&record_def, &record), ==, CEDUO_OK);
+    ceduo_record_release(&record);
+    EXPECT(ceduo_find(&find_def, &found), ==, CEDUO_OK);
+    for (size_t i = 0; i < 2; i++) { /* releases may always be called, and more than once */
+        q.size = record_def.size = uncertainty_def.size = calibration_def.size = find_def.size = i * 8;
+        EXPECT(ceduo_simulate_request(&q, NULL, &results), ==, CEDUO_BAD_ARGUMENT);
+        EXPECT(ceduo_record(&record_def, &record), ==, CEDUO_BAD_ARGUMENT);
+        EXPECT(ceduo_uncertainty_compute(&uncertainty_def, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
+        EXPECT(ceduo_calibrate(&calibration_def, &fit), ==, CEDUO_BAD_ARGUMENT);
+        EXPECT(ceduo_find(&find_def, &found), ==, CEDUO_BAD_ARGUMENT);
+        ceduo_results_release(&results);
+        ceduo_results_release(&results);
+        ceduo_record_release(&record);
+        ceduo_uncertainty_release(&uncertainty);
+        ceduo_calibration_release(&fit);
+    }
+    ceduo_pool_free(NULL);
+    ceduo_tracer_free(NULL);
+    r.scene.size--;
+    EXPECT(ceduo_scene_check(&r.scene, NULL), ==, CEDUO_BAD_ARGUMENT);
+    ceduo_scene_file_release(&r);
+    ceduo_scene_file_release(&r);
+}
+
 /* ---- defaults and texts ---- */
 
 TEST(defaults_fill_all_optional_values)
@@ -536,7 +599,7 @@ TEST(defaults_fill_all_optional_values)
     struct ceduo_control control = ceduo_control_default();
     assert_true(isnan(stems.volume) && isnan(stems.age) && isnan(stand.u) && isnan(belt.cut_year) && isnan(control.accepted));
     EXPECT(stand.species, ==, -1);
-    EXPECT(stand.energy, ==, CEDUO_BRAUNER);
+    EXPECT(stand.energy, ==, CEDUO_ENERGY_MODEL_BRAUNER);
     EXPECT(stand.counted_from, ==, 0);
     stems.per_ha = 900;
     stems.dbh = .2;

@@ -3,6 +3,7 @@
  * strike it, or roll down a smooth slope. */
 #include "expect.h"
 #include "local.h"
+#include "study/observe.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <stdlib.h>
@@ -387,7 +388,7 @@ TEST(runs_are_shared)
     for (int pass = 0; pass < 2; pass++) {
         LOCAL(ceduo_observer, observer);
         if (pass == 1)
-            g.scene.simulation.contact_model = CEDUO_INDEX;
+            g.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
         EXPECT(ceduo_observer_create(o, 6, &observer), ==, CEDUO_OK);
         EXPECT(ceduo_observer_simulate(observer, &g.scene, ROCKS, NULL, c), ==, CEDUO_OK);
         for (int i = 0; i < 6; i++) {
@@ -398,7 +399,7 @@ TEST(runs_are_shared)
                 EXPECT_NEAR(c[i].mean, i == 3 ? sqrt(speed2) : rock_mass() / (i == 1 ? 8 : 1) * speed2 / 2, 1e-6);
         }
     }
-    g.scene.simulation.contact_model = CEDUO_INDEX;
+    g.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
     struct ceduo_observation largest = make_observation(CEDUO_OBSERVED_LARGEST_HEIGHT);
     largest.option = 1;
     expect_mean(largest, HEIGHT, 1e-9);
@@ -454,7 +455,8 @@ TEST(scars_are_counted_and_measured)
     o.n = 3;
     o.values = heights;
     struct ceduo_record record;
-    struct ceduo_record_def def = {.scene = &g.scene, .option = &g.option, .rocks = ROCKS, .blows = true};
+    struct ceduo_record_def def = {
+        .size = sizeof(struct ceduo_record_def), .scene = &g.scene, .option = &g.option, .rocks = ROCKS, .blows = true};
     EXPECT(ceduo_record(&def, &record), ==, CEDUO_OK);
     double counts[ROCKS] = {0}, sum = 0, square = 0;
     for (size_t i = 0; i < record.blows_count; i++)
@@ -498,7 +500,8 @@ TEST(rocks_lie_where_stems_stop_them)
     g.option.belts = make_belt(1, tree, 1e7);
     g.option.belts_count = 1;
     LOCAL_BY(ceduo_record_release) struct ceduo_record record;
-    const struct ceduo_record_def def = {.scene = &g.scene, .option = &g.option, .rocks = 5, .blows = true};
+    const struct ceduo_record_def def = {
+        .size = sizeof(struct ceduo_record_def), .scene = &g.scene, .option = &g.option, .rocks = 5, .blows = true};
     EXPECT(ceduo_record(&def, &record), ==, CEDUO_OK);
     EXPECT(record.blows_count, ==, 5);
     for (size_t i = 0; i < 5; i++)

@@ -3,11 +3,11 @@
  * flight. */
 #include "expect.h"
 #include "local.h"
+#include "study/predict.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/calibrate.h"
 #include "ceduo/ceduo.h"
 #include "study/observed_stops.h"
 #include "unit/ground.h"
@@ -98,7 +98,7 @@ TEST(two_shapes_identify_mu)
 {
     struct ceduo_scene scene = ceduo_scene_default();
     scene.simulation.law = CEDUO_LAW_ARM;
-    scene.rock.shape = CEDUO_BLOCK;
+    scene.rock.shape = CEDUO_SHAPE_BLOCK;
     for (int i = 0; i < 3; i++)
         scene.rock.axes[i] = ceduo_number(0.5);
     struct ceduo_rock_def plate = scene.rock, larger = scene.rock;
@@ -114,9 +114,9 @@ TEST(two_shapes_identify_mu)
     o[2].rock = &plate;
     assert_true(ceduo_calibration_identifies_mu(scenes, 2));
     assert_false(ceduo_calibration_identifies_mu(scenes, 0));
-    o[2].use = CEDUO_OBSERVED_CHECK;
+    o[2].use = CEDUO_OBSERVED_USE_CHECK;
     assert_false(ceduo_calibration_identifies_mu(scenes, 2)); /* the other one is not fitted */
-    o[2].use = CEDUO_OBSERVED_FIT;
+    o[2].use = CEDUO_OBSERVED_USE_FIT;
     scene.simulation.law = CEDUO_LAW_LUMPED;
     assert_false(ceduo_calibration_identifies_mu(scenes, 2));
 }
@@ -157,8 +157,13 @@ static void make_flight(struct flight *f, double v, double sd)
 
 static struct ceduo_calibration_def run_fit(const struct ceduo_calibration_scene *scenes, size_t n, size_t parameters)
 {
-    return (struct ceduo_calibration_def){
-        .scenes_count = n, .scenes = scenes, .parameters_count = parameters, .rocks = 2, .seed = 1, .threads = 1};
+    return (struct ceduo_calibration_def){.size = sizeof(struct ceduo_calibration_def),
+                                          .scenes_count = n,
+                                          .scenes = scenes,
+                                          .parameters_count = parameters,
+                                          .rocks = 2,
+                                          .seed = 1,
+                                          .threads = 1};
 }
 
 /* Stopped at any time, there is no result. */
@@ -173,11 +178,11 @@ TEST(a_fit_can_be_stopped)
     def.cancel = &e.cancelled;
     def.progress = cancel_at_stage;
     def.context = &e;
-    for (int stage = CEDUO_SEARCH; stage <= CEDUO_CHAINS; stage++) {
+    for (int stage = CEDUO_CALIBRATION_STAGE_SEARCH; stage <= CEDUO_CALIBRATION_STAGE_CHAINS; stage++) {
         e = (struct ending){false, (enum ceduo_calibration_stage)stage};
         EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_CANCELLED);
     }
-    e = (struct ending){true, CEDUO_SEARCH}; /* before any result */
+    e = (struct ending){true, CEDUO_CALIBRATION_STAGE_SEARCH}; /* before any result */
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_CANCELLED);
 }
 
@@ -194,13 +199,13 @@ TEST(a_fit_of_few_steps)
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     assert_false(a.converged);
     EXPECT(a.draws_count, ==, 4 * 51);
-    ceduo_calibration_free(&a);
+    ceduo_calibration_release(&a);
     def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     assert_false(a.converged);
     EXPECT(a.draws_count, ==, 0);
-    ceduo_calibration_free(&a);
-    struct ending e = {false, CEDUO_CHAINS};
+    ceduo_calibration_release(&a);
+    struct ending e = {false, CEDUO_CALIBRATION_STAGE_CHAINS};
     def.cancel = &e.cancelled;
     def.progress = cancel_at_stage;
     def.context = &e;
@@ -214,7 +219,7 @@ TEST(two_values_without_draws)
     make_flight(&flights[0], 10, 0.1);
     const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, inputs, 1, &flights[0].observed};
     struct ceduo_calibration_def def = run_fit(&fitted, 1, 2);
-    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
+    LOCAL_BY(ceduo_calibration_release) struct ceduo_calibration a;
     def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.correlation[0][0], ==, 1);
@@ -247,12 +252,12 @@ TEST(a_place_exists_in_both_scenes)
     def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.parameters[0].best, <, 30);
-    ceduo_calibration_free(&a);
+    ceduo_calibration_release(&a);
     def = run_fit(&fitted[1], 1, 1);
     def.steps_max = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.parameters[0].best, >, 40);
-    ceduo_calibration_free(&a);
+    ceduo_calibration_release(&a);
 }
 
 /* A value with half of its draws in the last 5 % of its bounds is at its bound, even if the best is 3 % away; at 10 % it is
@@ -265,7 +270,7 @@ TEST(half_of_the_draws_at_a_bound)
         make_flight(&flights[0], v[i], 0.01);
         const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].observed};
         struct ceduo_calibration_def def = run_fit(&fitted, 1, 1);
-        LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
+        LOCAL_BY(ceduo_calibration_release) struct ceduo_calibration a;
         def.steps_max = 251;
         EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
         EXPECT_NEAR(a.parameters[0].best, v[i], 0.02);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "ceduo/uncertainty.h"
+#include "core/runs/run.h"
 #include "expect.h"
 #include "study/verdict.h"
 #include "test.h"
@@ -52,7 +52,7 @@ static int open_site(void **state)
     option = (struct ceduo_option){.name = name, .belts_count = 1, .belts = &belt};
     blocks = (struct ceduo_size_class){.per_year = 2, .volumes_count = 2, .volumes = volumes};
     scene = (struct ceduo_scene){.controls = &control, .controls_count = 1, .options = &option, .options_count = 1};
-    scene.simulation.contact_model = CEDUO_STEMS;
+    scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
     set_share(&bare, .3, .28, .32);
     set_share(&wooded, .031, .022, .043);
     stand = (struct ceduo_stand_result){0};
@@ -98,19 +98,19 @@ TEST_WITH(the_years_decide_before_today, open_site, NULL)
 {
     set_failing(17, 15, 19);
     struct ceduo_outcome o = judge(false);
-    EXPECT_IS(o, (answer, CEDUO_NO), (today, CEDUO_YES));
+    EXPECT_IS(o, (answer, CEDUO_JUDGEMENT_NO), (today, CEDUO_JUDGEMENT_YES));
     set_failing(0, 0, 0);
-    assert_int_equal(judge(false).answer, CEDUO_YES);
+    assert_int_equal(judge(false).answer, CEDUO_JUDGEMENT_YES);
     set_failing(0, 0, 1); /* sampling error allows one year */
-    assert_int_equal(judge(false).answer, CEDUO_NOT_DECIDED);
+    assert_int_equal(judge(false).answer, CEDUO_JUDGEMENT_NOT_DECIDED);
     set_failing(1, 0, 2);
-    assert_int_equal(judge(false).answer, CEDUO_NOT_DECIDED);
+    assert_int_equal(judge(false).answer, CEDUO_JUDGEMENT_NOT_DECIDED);
     o = ceduo_outcome_compute(&result, NULL, NULL, 0, 0); /* today is all that is known */
-    EXPECT_IS(o, (answer, CEDUO_YES), (over_years, false));
+    EXPECT_IS(o, (answer, CEDUO_JUDGEMENT_YES), (over_years, false));
     choice.window.kind = CEDUO_WINDOW_CONSTANT;
     set_failing(1, 1, 1);
     o = judge(false);
-    EXPECT_IS(o, (answer, CEDUO_YES), (over_years, false));
+    EXPECT_IS(o, (answer, CEDUO_JUDGEMENT_YES), (over_years, false));
 }
 
 TEST_WITH(uncertain_inputs_leave_the_answer_open, open_site, NULL)
@@ -119,9 +119,10 @@ TEST_WITH(uncertain_inputs_leave_the_answer_open, open_site, NULL)
         size_t failing, lo, hi;
         double p5, p95;
         enum ceduo_judgement answer;
-    } rows[] = {{17, 15, 19, 12, 25, CEDUO_NO},     {17, 15, 19, 0, 25, CEDUO_DEPENDS}, {0, 0, 0, 0, 0, CEDUO_YES},
-                {0, 0, 0, 0, 12, CEDUO_DEPENDS},    {4, 2, 6, 0, 12, CEDUO_DEPENDS},    {0, 0, 2, 0, 0, CEDUO_NOT_DECIDED},
-                {1, 0, 2, 1, 12, CEDUO_NOT_DECIDED}};
+    } rows[] = {{17, 15, 19, 12, 25, CEDUO_JUDGEMENT_NO},     {17, 15, 19, 0, 25, CEDUO_JUDGEMENT_DEPENDS},
+                {0, 0, 0, 0, 0, CEDUO_JUDGEMENT_YES},         {0, 0, 0, 0, 12, CEDUO_JUDGEMENT_DEPENDS},
+                {4, 2, 6, 0, 12, CEDUO_JUDGEMENT_DEPENDS},    {0, 0, 2, 0, 0, CEDUO_JUDGEMENT_NOT_DECIDED},
+                {1, 0, 2, 1, 12, CEDUO_JUDGEMENT_NOT_DECIDED}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         set_failing(rows[i].failing, rows[i].lo, rows[i].hi);
         set_range(CEDUO_UNCERTAINTY_FAILING, rows[i].p5, rows[i].p95);
@@ -139,9 +140,9 @@ TEST_WITH(today_may_depend, open_site, NULL)
     set_range(CEDUO_UNCERTAINTY_FAILING, 12, 25);
     set_range(CEDUO_UNCERTAINTY_EXCEED, .004, .126);
     struct ceduo_outcome o = judge(true);
-    EXPECT_IS(o, (answer, CEDUO_NO), (today, CEDUO_DEPENDS));
+    EXPECT_IS(o, (answer, CEDUO_JUDGEMENT_NO), (today, CEDUO_JUDGEMENT_DEPENDS));
     set_range(CEDUO_UNCERTAINTY_EXCEED, .004, .05);
-    assert_int_equal(judge(true).today, CEDUO_YES);
+    assert_int_equal(judge(true).today, CEDUO_JUDGEMENT_YES);
 }
 
 /* Two blocks a year: one in 100 years above the accepted energy is a share of .005. */
@@ -158,10 +159,10 @@ TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
     const struct {
         double lo, hi, p5, p95; /* events per year; shares at two released per year */
         enum ceduo_judgement answer;
-    } rows[] = {{.005, .01, NAN, NAN, CEDUO_YES},       {.005, .0101, NAN, NAN, CEDUO_NOT_DECIDED},
-                {.0101, .02, NAN, NAN, CEDUO_NO},       {.005, .009, .002, .0051, CEDUO_DEPENDS},
-                {.005, .009, .002, .005, CEDUO_YES},    {.0101, .02, .0051, .01, CEDUO_NO},
-                {.0101, .02, .0049, .01, CEDUO_DEPENDS}};
+    } rows[] = {{.005, .01, NAN, NAN, CEDUO_JUDGEMENT_YES},       {.005, .0101, NAN, NAN, CEDUO_JUDGEMENT_NOT_DECIDED},
+                {.0101, .02, NAN, NAN, CEDUO_JUDGEMENT_NO},       {.005, .009, .002, .0051, CEDUO_JUDGEMENT_DEPENDS},
+                {.005, .009, .002, .005, CEDUO_JUDGEMENT_YES},    {.0101, .02, .0051, .01, CEDUO_JUDGEMENT_NO},
+                {.0101, .02, .0049, .01, CEDUO_JUDGEMENT_DEPENDS}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         years.rate = (struct ceduo_estimate){(rows[i].lo + rows[i].hi) / 2, NAN, rows[i].lo, rows[i].hi};
         set_range(CEDUO_UNCERTAINTY_MEAN, rows[i].p5, rows[i].p95);
@@ -180,20 +181,20 @@ static void print_answer(struct text *text, size_t at, size_t width)
 TEST_WITH(an_impossible_stand_supports_no_yes, open_site, NULL)
 {
     LOCAL_TEXT(text);
-    stand.warnings = CEDUO_WARN_BASAL_AREA;
+    stand.warnings = CEDUO_WARNING_BASAL_AREA;
     set_failing(0, 0, 0);
     struct ceduo_outcome o = judge(false);
-    EXPECT_IS(o, (answer, CEDUO_CANNOT_JUDGE), (impossible, true));
+    EXPECT_IS(o, (answer, CEDUO_JUDGEMENT_CANNOT_JUDGE), (impossible, true));
     print_answer(&text, 0, 200);
     assert_non_null(strstr(text.bytes, "more stems than a forest can hold"));
     set_failing(17, 15, 19);
-    assert_int_equal(judge(false).answer, CEDUO_NO);
-    stand.warnings = CEDUO_WARN_THICK;
+    assert_int_equal(judge(false).answer, CEDUO_JUDGEMENT_NO);
+    stand.warnings = CEDUO_WARNING_THICK;
     set_failing(0, 0, 0);
-    assert_int_equal(judge(false).answer, CEDUO_YES);
-    stand.warnings = CEDUO_WARN_BASAL_AREA;
+    assert_int_equal(judge(false).answer, CEDUO_JUDGEMENT_YES);
+    stand.warnings = CEDUO_WARNING_BASAL_AREA;
     belt.from = control.x; /* after the control */
-    assert_int_equal(judge(false).answer, CEDUO_YES);
+    assert_int_equal(judge(false).answer, CEDUO_JUDGEMENT_YES);
 }
 
 static void expect_words(size_t at, size_t width, const char *wanted)

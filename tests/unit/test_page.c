@@ -8,7 +8,6 @@
 
 #include <math.h>
 
-#include "ceduo/request.h"
 #include "view/figures.h"
 #include "view/page.h"
 

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/runs/statistics.h"
 #include "local.h"
+#include "scene/derived.h"
 #include "table.h"
 #include "unit/site.h"
 
@@ -431,7 +433,7 @@ TEST_WOODED(nothing_is_drawn_outside_the_area)
         struct ceduo_area area = {7, 3, 4 + i / 3 % 40 * 3, 1 + i / 120 * 2};
         for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
             LOCAL(ceduo_cells, cells) = ceduo_cells_create(area.width + 14, area.height + 6, charset);
-            s.scene.simulation.contact_model = i / 3 % 2 ? CEDUO_STEMS : CEDUO_INDEX;
+            s.scene.simulation.contact_model = i / 3 % 2 ? CEDUO_CONTACT_MODEL_STEMS : CEDUO_CONTACT_MODEL_INDEX;
             picture.snapshot = i % 7 == 0 ? NULL : &s.snapshot;
             picture.stems = i % 11 < 3 ? encountered : NULL;
             picture.stems_count = i % 11 < 3 ? 4 : 0;
@@ -546,7 +548,7 @@ TEST_BARE(titles_describe_the_picture)
         int plot = CEDUO_PLOT_PROFILE + i / 2;
         LOCAL_TEXT(title);
         LOCAL_TEXT(wanted);
-        s.scene.simulation.contact_model = i % 2 ? CEDUO_STEMS : CEDUO_INDEX;
+        s.scene.simulation.contact_model = i % 2 ? CEDUO_CONTACT_MODEL_STEMS : CEDUO_CONTACT_MODEL_INDEX;
         ceduo_plot_title(&title, (enum ceduo_plot)plot, &picture);
         ceduo_text_format(&wanted, "%s%s", expected[plot].title, i % 2 ? "" : expected[plot].without_forest);
         assert_string_equal(ceduo_text_string(&title), wanted.bytes);

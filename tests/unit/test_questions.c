@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Requests for little, cancelled requests, and figures derived from their results. */
+#include "core/runs/result.h"
+#include "core/runs/year_runs.h"
 #include "expect.h"
 #include "local.h"
 
@@ -49,7 +51,7 @@ static void expect_yields_alone(const struct ceduo_results *answer)
 /* Without a control rocks are simulated all the same, and other sizes have no results. */
 TEST(nothing_is_counted_without_a_control)
 {
-    for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
+    for (int model = CEDUO_CONTACT_MODEL_INDEX; model <= CEDUO_CONTACT_MODEL_STEMS; model++) {
         struct ceduo_request q = make_request(20);
         LOCAL_BY(ceduo_results_release) struct ceduo_results answer;
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes and rocks that are refused, grounds and belts at their limits. */
+#include "core/runs/assess.h"
+#include "core/runs/blocks.h"
 #include "expect.h"
 #include "local.h"
+#include "scene/rock.h"
 
 #include <math.h>
 
@@ -144,7 +147,7 @@ static void expect_no_blocks(void)
     struct ceduo_size_result blocks[CEDUO_SIZES];
     const struct ceduo_sizes_def def = {
         .scene = &site.scene, .option = &site.option, .rocks = 10, .effort = INFINITY, .threads = 1};
-    for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
+    for (int model = CEDUO_CONTACT_MODEL_INDEX; model <= CEDUO_CONTACT_MODEL_STEMS; model++) {
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
         assert_int_equal(ceduo_sizes_simulate(&def, blocks), CEDUO_BAD_ROCK);
     }
@@ -163,7 +166,7 @@ TEST(an_invalid_rock_has_no_figures)
     assert_false(stand.passes_threshold);
     struct ceduo_index index = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
     assert_true(isnan(index.measured));
-    EXPECT(index.contact, !=, CEDUO_PASS);
+    EXPECT(index.contact, !=, CEDUO_LIGHT_PASS);
     assert_int_equal(ceduo_trajectory_run(&site.scene, NULL, 0, NULL, &trajectory, NULL), CEDUO_BAD_ROCK);
     assert_null(ceduo_tracer_create(&site.scene, NULL));
     expect_no_blocks();
@@ -202,7 +205,7 @@ TEST(rocks_are_refused)
     expect_rock(&def, CEDUO_BAD_ROCK);
 
     def = ceduo_scene_default().rock;
-    def.shape = CEDUO_CYLINDER;
+    def.shape = CEDUO_SHAPE_CYLINDER;
     def.diameter.mean = 1;
     expect_rock(&def, CEDUO_BAD_ROCK);
     def.height.mean = 1;
@@ -211,7 +214,7 @@ TEST(rocks_are_refused)
     expect_rock(&def, CEDUO_BAD_ROCK);
 
     def = ceduo_scene_default().rock;
-    for (int shape = CEDUO_ELLIPSOID; shape <= CEDUO_BLOCK; shape++) {
+    for (int shape = CEDUO_SHAPE_ELLIPSOID; shape <= CEDUO_SHAPE_BLOCK; shape++) {
         def.shape = (enum ceduo_shape)shape;
         for (int all = 0; all < 8; all++) {
             for (int i = 0; i < 3; i++)
@@ -257,11 +260,11 @@ TEST(collinear_segments_are_merged)
         assert_int_equal(segments_made(), 2);
         *numbers[i] = was;
     }
-    b->rn.kind = CEDUO_UNIFORM; /* without spread */
+    b->rn.kind = CEDUO_SPREAD_UNIFORM; /* without spread */
     assert_int_equal(segments_made(), 1);
     a->rn.spread = b->rn.spread = .01;
     assert_int_equal(segments_made(), 2);
-    a->rn.kind = CEDUO_UNIFORM;
+    a->rn.kind = CEDUO_SPREAD_UNIFORM;
     assert_int_equal(segments_made(), 1);
     a->roughness_m = b->roughness_m = .1;
     a->roughness_rad = b->roughness_rad = NAN;
@@ -339,5 +342,5 @@ TEST(belts_outside_the_trajectory)
     assert_int_equal(ceduo_rock_from_means(&site.scene.rock, &rock), CEDUO_OK);
     second = ceduo_assess_index(&site.scene, &site.option, &control, NAN);
     EXPECT_NEAR(second.measured, 50 * rock.mass, 1e-6);
-    assert_int_equal(ceduo_energy_light(NULL), CEDUO_UNKNOWN);
+    assert_int_equal(ceduo_energy_light(NULL), CEDUO_LIGHT_UNKNOWN);
 }

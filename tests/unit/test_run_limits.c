@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs and pools at their limits: parts, and rocks that cannot be drawn or never end. */
+#include "core/runs/pool.h"
+#include "core/runs/result.h"
+#include "core/runs/run.h"
+#include "core/runs/variants.h"
+#include "core/runs/year_runs.h"
 #include "expect.h"
 #include "local.h"
 
@@ -18,7 +23,7 @@ TEST(rocks_that_cannot_be_drawn)
     paper_site_init(&site);
     site.scene.rock = ceduo_scene_default().rock;
     site.scene.rock.diameter.mean = .5;
-    site.scene.rock.mass = (struct ceduo_number){.mean = 3e-322, .spread = 2.9e-322, .kind = CEDUO_UNIFORM};
+    site.scene.rock.mass = (struct ceduo_number){.mean = 3e-322, .spread = 2.9e-322, .kind = CEDUO_SPREAD_UNIFORM};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     struct followed found = expect_as_followed(def, 300);
     EXPECT(found.bad, >, 50);
@@ -235,7 +240,7 @@ TEST(years_before_they_are_flown)
     site.scene.simulation.rocks = 20;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     LOCAL(ceduo_run, run) = make_run(&def, 20);
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare;
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare;
     LOCAL(ceduo_years, years);
     assert_int_equal(ceduo_simulated_read(run, &site.scene, NULL, &bare), CEDUO_OK);
     assert_int_equal(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 3, .step = 1}, &years),

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks, uncertainty and observations in a scene: the places they refer to, their sources, and merged problems. */
 #include "local.h"
+#include "scene/stand.h"
 #include "table.h"
 
 #include <math.h>

@@ -3,13 +3,13 @@
  * screen. */
 #include "expect.h"
 #include "local.h"
+#include "scene/derived.h"
 
 #include <glob.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/utf8.h"
-#include "ceduo/request.h"
 #include "io/scene_file.h"
 #include "view/page_parts.h"
 

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Snapshots of runs for pictures. */
+#include "ceduo/simulate.h"
+#include "core/runs/pool.h"
+#include "core/runs/run.h"
 #include "expect.h"
 #include "local.h"
 
@@ -50,7 +53,7 @@ static struct ceduo_snapshot *make_pool_snapshot(struct ceduo_pool *pool, size_t
 
 TEST_WITH(envelopes_lie_beyond_the_release, set_up_index, NULL)
 {
-    s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_UNIFORM};
+    s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_SPREAD_UNIFORM};
     LOCAL(ceduo_pool, pool) = make_pool(10);
     LOCAL(ceduo_snapshot, snapshot) =
         make_snapshot(&(struct ceduo_snapshot_def){.scene = &s.scene, .runs = pool, .envelope_rocks = 10});

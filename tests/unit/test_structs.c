@@ -2,6 +2,9 @@
 /* tags: slow */
 /* The library with any struct that its headers allow: each number at, within or beyond its bounds, NaN or infinite, each word
  * beyond its list. It computes or refuses, and always ends. */
+#include "core/runs/blocks.h"
+#include "core/runs/result.h"
+#include "core/runs/year_runs.h"
 #include "expect.h"
 #include "full.h"
 #include "local.h"
@@ -227,7 +230,8 @@ static enum ceduo_status ask_any_uncertainty(void)
 {
     struct ceduo_input inputs[2] = {any_input(), any_input()};
     struct ceduo_uncertainty_def def =
-        draw(8) ? ceduo_uncertainty_def_default(&site.scene) : (struct ceduo_uncertainty_def){.scene = &site.scene};
+        draw(8) ? ceduo_uncertainty_def_default(&site.scene)
+                : (struct ceduo_uncertainty_def){.size = sizeof(struct ceduo_uncertainty_def), .scene = &site.scene};
     struct ceduo_uncertainty_result a;
     def.inputs = draw(32) ? inputs : NULL;
     def.inputs_count = draw(16) ? 1 + draw(2) : 0;
@@ -244,7 +248,7 @@ static enum ceduo_status ask_any_uncertainty(void)
     def.option = any_count(1);
     enum ceduo_status status = ceduo_uncertainty_compute(&def, &a);
     if (status == CEDUO_OK)
-        ceduo_uncertainty_free(&a);
+        ceduo_uncertainty_release(&a);
     return status;
 }
 
@@ -295,7 +299,7 @@ static enum ceduo_status ask_any_other(void)
         survey.stems = draw(8) ? &stem : NULL;
         status = ceduo_survey_compute(&survey, &answer);
         if (status == CEDUO_OK)
-            ceduo_survey_free(&answer);
+            ceduo_survey_release(&answer);
         return status;
     }
 }
@@ -369,7 +373,7 @@ TEST(each_bad_argument_is_refused)
     def.threads = 0; /* means 1 */
     EXPECT(ceduo_uncertainty_compute(&def, &uncertainty), ==, CEDUO_OK);
     EXPECT(uncertainty.points, ==, 4);
-    ceduo_uncertainty_free(&uncertainty);
+    ceduo_uncertainty_release(&uncertainty);
     bad = def, bad.one_option = true, bad.option = 9;
     EXPECT(ceduo_uncertainty_compute(&bad, &uncertainty), ==, CEDUO_BAD_ARGUMENT);
     bad = def, bad.years_max = 1000;

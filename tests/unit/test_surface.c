@@ -3,11 +3,10 @@
 /* Shares of uncertainty by a surface, for functions with shares in closed form. */
 #include "expect.h"
 #include "full.h"
+#include "study/surface.h"
 
 #include <stdlib.h>
 
-#include "ceduo/surface.h"
-#include "ceduo/uncertainty.h"
 #include "physics/line_scene.h"
 
 #define SEEDS      FULL_OR(200u, 100u)

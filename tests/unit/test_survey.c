@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From plots to a stand: densities and their errors in a known forest, heights, classes, volumes. */
 #include "local.h"
+#include "study/naslund.h"
+#include "study/plots.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "ceduo/survey.h"
 #include "expect.h"
 #include "physics/line_scene.h"
 
@@ -76,7 +77,7 @@ TEST(intervals_hold_the_truth)
         areas[p] = M_PI * RADIUS * RADIUS;
     for (int i = 0; i < SAMPLES; i++) {
         struct ceduo_survey s = {.plots_count = PLOTS, .areas = areas, .stems = stems};
-        LOCAL_BY(ceduo_survey_free) struct ceduo_survey_result a;
+        LOCAL_BY(ceduo_survey_release) struct ceduo_survey_result a;
         s.stems_count = sample_plots(f, stems, &s.stools_count);
         assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
         const struct ceduo_estimate *n = &a.per_ha[CEDUO_SURVEY_SHOOT];
@@ -116,13 +117,13 @@ TEST(densities_by_hand)
     assert_int_equal(a.classes_count, 1);
     assert_int_equal(a.classes[0].form_factor, 16);
     EXPECT_NEAR(a.classes[0].volume, 0.5 * M_PI / 4 * .12 * .12 * 9, 1e-12);
-    ceduo_survey_free(&a);
+    ceduo_survey_release(&a);
     s.plots_count = 1;
     s.stems_count = 2;
     assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
     EXPECT_NEAR(a.per_ha[CEDUO_SURVEY_TREE].mean, 200, 1e-12);
     assert_true(isnan(a.per_ha[CEDUO_SURVEY_TREE].se));
-    ceduo_survey_free(&a);
+    ceduo_survey_release(&a);
 }
 
 /* 400 m2 along a slope of 40 degrees are 306.418 m2 on the map. */
@@ -209,7 +210,7 @@ TEST(classes_by_hand)
     stems[4].spacing = .3;
     stems[5].energy = 3000;
     struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 1, .stems_count = 7, .stems = stems};
-    LOCAL_BY(ceduo_survey_free) struct ceduo_survey_result a;
+    LOCAL_BY(ceduo_survey_release) struct ceduo_survey_result a;
     assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
     assert_int_equal(a.species, cerris);
     assert_int_equal(a.classes_count, 5);
@@ -256,20 +257,20 @@ TEST(missing_heights)
     struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 6, .stems_count = 9, .stems = stems};
     struct ceduo_survey_result a;
     assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
-    assert_int_equal(a.shoots.from, CEDUO_HEIGHTS_CURVE);
+    assert_int_equal(a.shoots.from, CEDUO_SURVEY_HEIGHTS_CURVE);
     assert_int_equal(a.shoots.given, 5);
     assert_int_equal(a.shoots.missing, 1);
     double sum = 0;
     for (size_t i = 0; i < 6; i++)
         sum += ceduo_naslund_height(&truth, stems[i].dbh) / 6;
     EXPECT_NEAR(a.classes[0].height, sum, 1e-7);
-    assert_int_equal(a.trees.from, CEDUO_HEIGHTS_MEAN);
+    assert_int_equal(a.trees.from, CEDUO_SURVEY_HEIGHTS_MEAN);
     EXPECT_NEAR(a.trees.mean, 13.5, 1e-12);
     EXPECT_NEAR(a.classes[a.classes_count - 1].height, 13.5, 1e-12);
-    ceduo_survey_free(&a);
+    ceduo_survey_release(&a);
     s.stems_count = 5;
     assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
-    assert_int_equal(a.shoots.from, CEDUO_HEIGHTS_MEASURED);
+    assert_int_equal(a.shoots.from, CEDUO_SURVEY_HEIGHTS_MEASURED);
     assert_true(isnan(a.trees.mean));
-    ceduo_survey_free(&a);
+    ceduo_survey_release(&a);
 }

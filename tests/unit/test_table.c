@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of the scene covers every member, every row affects its subject, defaults are in range, and paths read and set
  * numbers in place. */
+#include "core/runs/key.h"
+#include "core/runs/run.h"
 #include "expect.h"
 #include "local.h"
 
 #include <malloc.h>
 #include <math.h>
 
-#include "ceduo/key.h"
-#include "ceduo/run.h"
 #include "io/scene_file.h"
 #include "scene/value.h"
 #include "unit/every_key.h"
@@ -74,6 +74,7 @@ static void expect_whole(const char *name, const struct object *object, bool *is
 {
     const struct object *scene = ceduo_schema_scene(), *belt = ceduo_schema_belt(), *slope = ceduo_schema_slope();
     const struct derived_member derived[] = {
+        DERIVED(scene, ceduo_scene, size),
         DERIVED(slope, ceduo_slope, origin_x),
         DERIVED(slope, ceduo_slope, origin_z),
         DERIVED(slope, ceduo_slope, simplified_to),
@@ -169,7 +170,7 @@ TEST(every_default_lies_in_its_range)
     EXPECT(scene.simulation.threshold, ==, 30);
     EXPECT(scene.simulation.gravity, ==, 9.81);
     assert_true(isnan(scene.rocks_per_year));
-    assert_int_equal(scene.simulation.contact_model, CEDUO_STEMS);
+    assert_int_equal(scene.simulation.contact_model, CEDUO_CONTACT_MODEL_STEMS);
     EXPECT(ceduo_segment_default().friction, ==, .5);
     EXPECT(ceduo_segment_default().mu, ==, .6);
     assert_true(isnan(ceduo_segment_default().rn.mean));
@@ -472,13 +473,13 @@ TEST(words_are_set_by_their_index)
     struct value v;
     read_scene(&file, scenes[0]);
     assert_true(ceduo_value_find(&file.scene, "simulation.contact_model", &v));
-    EXPECT(ceduo_value_get(&v), ==, CEDUO_STEMS);
-    assert_true(ceduo_value_set(&v, CEDUO_INDEX));
-    assert_int_equal(file.scene.simulation.contact_model, CEDUO_INDEX);
+    EXPECT(ceduo_value_get(&v), ==, CEDUO_CONTACT_MODEL_STEMS);
+    assert_true(ceduo_value_set(&v, CEDUO_CONTACT_MODEL_INDEX));
+    assert_int_equal(file.scene.simulation.contact_model, CEDUO_CONTACT_MODEL_INDEX);
     const double none[] = {-2, .5, (double)v.field->choices->n, NAN};
     for (size_t i = 0; i < LENGTH(none); i++)
         assert_false(ceduo_value_set(&v, none[i]));
-    assert_int_equal(file.scene.simulation.contact_model, CEDUO_INDEX);
+    assert_int_equal(file.scene.simulation.contact_model, CEDUO_CONTACT_MODEL_INDEX);
 }
 
 /* Trying many values on one scene leaks no memory. */

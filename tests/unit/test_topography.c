@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "ceduo/ceduo.h"
+#include "core/runs/assess.h"
 #include "expect.h"
+#include "scene/slope.h"
 
 #define POINTS_MAX 400
 
@@ -60,7 +62,7 @@ TEST(all_points_are_used_without_a_tolerance)
     profile_make(&p, LENGTH(points), points, 0);
     simplify(&p, 0, &to);
     assert_null(to.x);
-    ceduo_slope_simplified_free(&to);
+    ceduo_slope_simplified_release(&to);
 }
 
 /* By hand: the point at 5 m is .4/sqrt(2) m off the line from 0 to 10 m; the one at 15 m is 1 m below the line from 10 to 20
@@ -78,11 +80,11 @@ TEST(a_point_within_the_tolerance_is_dropped)
         EXPECT(to.x[i], ==, expected[i][0]);
         EXPECT(to.z[i], ==, expected[i][1]);
     }
-    ceduo_slope_simplified_free(&to);
+    ceduo_slope_simplified_release(&to);
     p.slope.tolerance = .28; /* below .4/sqrt(2) = .2828 */
     simplify(&p, 0, &to);
     assert_int_equal(to.vertices, LENGTH(points));
-    ceduo_slope_simplified_free(&to);
+    ceduo_slope_simplified_release(&to);
 }
 
 TEST(release_and_borders_of_grounds_stay)
@@ -100,7 +102,7 @@ TEST(release_and_borders_of_grounds_stay)
     EXPECT(to.segments[0].rn.mean, ==, .3);
     EXPECT(to.segments[1].rn.mean, ==, .3);
     EXPECT(to.segments[2].rn.mean, ==, .4);
-    ceduo_slope_simplified_free(&to);
+    ceduo_slope_simplified_release(&to);
 }
 
 /* A linear congruential generator of 31 bits. */
@@ -162,8 +164,8 @@ TEST(no_point_is_farther_than_the_tolerance)
             before = to.vertices;
             assert_int_equal(ceduo_slope_simplify(&to, release, &again), CEDUO_OK);
             assert_null(again.x);
-            ceduo_slope_simplified_free(&again);
-            ceduo_slope_simplified_free(&to);
+            ceduo_slope_simplified_release(&again);
+            ceduo_slope_simplified_release(&to);
         }
         EXPECT(before, <, p.slope.vertices / 2);
     }
@@ -187,9 +189,9 @@ TEST(another_tolerance_begins_with_all_points)
     assert_memory_equal(fine.z, direct.z, fine.vertices * sizeof *fine.z);
     for (size_t j = 0; j + 1 < fine.vertices; j++)
         assert_true(ceduo_segment_same(&fine.segments[j], &direct.segments[j]));
-    ceduo_slope_simplified_free(&direct);
-    ceduo_slope_simplified_free(&fine);
-    ceduo_slope_simplified_free(&coarse);
+    ceduo_slope_simplified_release(&direct);
+    ceduo_slope_simplified_release(&fine);
+    ceduo_slope_simplified_release(&coarse);
 }
 
 /* ---- topography ---- */

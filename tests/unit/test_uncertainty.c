@@ -2,11 +2,11 @@
 /* tags: slow */
 /* Uncertainty with a known law, inputs that decide a light, and inputs at the ends of their ranges. */
 #include "expect.h"
+#include "study/dominant_inputs.h"
+#include "study/surface.h"
 
 #include <stdlib.h>
 
-#include "ceduo/request.h"
-#include "ceduo/uncertainty.h"
 #include "io/scene_file.h"
 #include "study/effort.h"
 #include "study/inputs.h"
@@ -70,8 +70,13 @@ TEST(uncertainty_of_a_known_law)
                                          make_range(&places[1], 1000, 2000)};
     struct ceduo_uncertainty_result a;
     open_wood();
-    const struct ceduo_uncertainty_def def = {
-        .scene = &file.scene, .inputs_count = 3, .inputs = inputs, .points = 1024, .rocks = 2, .threads = 2};
+    const struct ceduo_uncertainty_def def = {.size = sizeof(struct ceduo_uncertainty_def),
+                                              .scene = &file.scene,
+                                              .inputs_count = 3,
+                                              .inputs = inputs,
+                                              .points = 1024,
+                                              .rocks = 2,
+                                              .threads = 2};
     EXPECT(ceduo_uncertainty_compute(&def, &a), ==, CEDUO_OK);
     const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(&a, 0, CEDUO_UNCERTAINTY_CONTACT, false);
     double root = sqrt(.1);
@@ -85,7 +90,7 @@ TEST(uncertainty_of_a_known_law)
     EXPECT_NEAR(f->at_ends[1][0], .2, 1e-12);
     EXPECT_NEAR(f->at_ends[1][1], .3, 1e-12);
     EXPECT(f->order[2], ==, 0);
-    ceduo_uncertainty_free(&a);
+    ceduo_uncertainty_release(&a);
     ceduo_scene_release(&file);
 }
 
@@ -100,7 +105,8 @@ TEST(more_points_where_inputs_are_many)
         inputs[i] = i == 0 ? make_range(&places[0], 2400, 2700) : make_range(&places[1], 11, 13);
     open_wood();
     file.scene.controls[0].accepted = NAN;
-    const struct ceduo_uncertainty_def def = {.scene = &file.scene,
+    const struct ceduo_uncertainty_def def = {.size = sizeof(struct ceduo_uncertainty_def),
+                                              .scene = &file.scene,
                                               .inputs_count = MANY,
                                               .inputs = inputs,
                                               .points = CEDUO_UNCERTAINTY_POINTS,
@@ -112,7 +118,7 @@ TEST(more_points_where_inputs_are_many)
     assert_true(f->fit.enough_points);
     EXPECT_NEAR(f->fit.total[0].value, 1, 1e-6);
     EXPECT_NEAR(f->fit.p5 / f->fit.p95, 2415. / 2685, .002);
-    ceduo_uncertainty_free(&a);
+    ceduo_uncertainty_release(&a);
     ceduo_scene_release(&file);
 }
 
@@ -123,13 +129,19 @@ TEST(too_much_work_is_aborted)
     const struct ceduo_input input = make_range(&place, .2, .6);
     struct ceduo_uncertainty_result a;
     open_wood();
-    struct ceduo_uncertainty_def def = {
-        .scene = &file.scene, .inputs_count = 1, .inputs = &input, .points = 64, .points_max = 64, .rocks = 8, .threads = 1};
+    struct ceduo_uncertainty_def def = {.size = sizeof(struct ceduo_uncertainty_def),
+                                        .scene = &file.scene,
+                                        .inputs_count = 1,
+                                        .inputs = &input,
+                                        .points = 64,
+                                        .points_max = 64,
+                                        .rocks = 8,
+                                        .threads = 1};
     uint64_t few = 1, enough = 1 << 20; /* contacts */
     while (enough - few > 1) {
         def.effort_max = (few + enough) / 2;
         *(ceduo_uncertainty_compute(&def, &a) == CEDUO_OK ? &enough : &few) = def.effort_max;
-        ceduo_uncertainty_free(&a);
+        ceduo_uncertainty_release(&a);
     }
     EXPECT(enough, >, 64 * 8); /* each rock touches the ground at least once */
     EXPECT(enough, <, 1 << 20);
@@ -137,7 +149,7 @@ TEST(too_much_work_is_aborted)
     for (int i = 0; i < 20; i++) {
         def.effort_max = enough - (uint64_t)i % 2;
         EXPECT(ceduo_uncertainty_compute(&def, &a), ==, (i % 2 == 0 ? CEDUO_OK : CEDUO_CANCELLED));
-        ceduo_uncertainty_free(&a);
+        ceduo_uncertainty_release(&a);
     }
     ceduo_scene_release(&file);
 }
@@ -146,7 +158,8 @@ TEST(too_much_work_is_aborted)
 
 static struct ceduo_uncertainty_def set_long_years(const struct ceduo_input *input)
 {
-    return (struct ceduo_uncertainty_def){.scene = &file.scene,
+    return (struct ceduo_uncertainty_def){.size = sizeof(struct ceduo_uncertainty_def),
+                                          .scene = &file.scene,
                                           .inputs_count = 1,
                                           .inputs = input,
                                           .points = 2,
@@ -164,7 +177,7 @@ TEST(a_year_of_a_point_represents_several)
     const struct ceduo_input input = make_range(&place, 1, 2);
     struct ceduo_uncertainty_result a;
     open_wood();
-    file.scene.simulation.contact_model = CEDUO_STEMS;
+    file.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
     file.scene.options[0].belts_count = 0;
     file.scene.controls[0].accepted = 1;
     const struct ceduo_uncertainty_def def = set_long_years(&input);
@@ -173,7 +186,7 @@ TEST(a_year_of_a_point_represents_several)
     EXPECT(f->value, ==, LONG);
     for (int p = 0; p < 2; p++)
         EXPECT_NEAR(f->fit.values[p], LONG, 1e-9);
-    ceduo_uncertainty_free(&a);
+    ceduo_uncertainty_release(&a);
     ceduo_scene_release(&file);
 }
 
@@ -195,7 +208,7 @@ TEST(slots_of_a_point_cover_all_years)
     const double u[2] = {.25, .75};
     double years[1 + CEDUO_UNCERTAINTY_YEARS_MAX] = {0};
     open_wood();
-    file.scene.simulation.contact_model = CEDUO_STEMS;
+    file.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
     struct ceduo_stand *stand = &file.scene.options[0].belts[0].stand;
     stand->growth.trees = (struct ceduo_curve){.dbh_max = TREE_MAX, .dbh_rate = .01, .height_max = 20, .height_rate = .01};
     const struct ceduo_uncertainty_def def = set_long_years(&input);
@@ -240,7 +253,7 @@ TEST(the_effort_of_a_page_is_bounded)
                  {4e5, 60, 100, 0, 0}};
     const struct ceduo_input input = make_range(&place, .25, .35);
     open_wood();
-    file.scene.simulation.contact_model = CEDUO_STEMS;
+    file.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
     for (int k = 0; k < 2; k++) /* trees stop no rock */
         file.scene.options[0].belts[0].stand.trees[k].volume = 1e-9;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -252,7 +265,8 @@ TEST(the_effort_of_a_page_is_bounded)
         q.rocks = q.run.rocks_max = cases[i].own;
         EXPECT(ceduo_simulate_request(&q, NULL, &own), ==, CEDUO_OK);
         for (unsigned threads = 1; threads <= 2; threads++) {
-            struct ceduo_uncertainty_def def = {.scene = &file.scene,
+            struct ceduo_uncertainty_def def = {.size = sizeof(struct ceduo_uncertainty_def),
+                                                .scene = &file.scene,
                                                 .inputs_count = 1,
                                                 .inputs = &input,
                                                 .points = CEDUO_UNCERTAINTY_POINTS,
@@ -279,7 +293,7 @@ TEST(the_effort_of_a_page_is_bounded)
 /* Without arrivals there is no energy, by the index and among stems. */
 TEST(no_rock_brings_no_energy)
 {
-    const enum ceduo_contact_model models[] = {CEDUO_INDEX, CEDUO_STEMS};
+    const enum ceduo_contact_model models[] = {CEDUO_CONTACT_MODEL_INDEX, CEDUO_CONTACT_MODEL_STEMS};
     open_wood();
     file.scene.slope.segments[0].rt = ceduo_number(0);
     file.scene.slope.segments[0].friction = 100;
@@ -328,7 +342,7 @@ TEST(inputs_that_decide_a_light)
 TEST(words_and_rows_share_the_range)
 {
     static const char *const places[] = {"simulation.rule", "rock.density_kg_m3", "rocks_per_year"};
-    const int words[] = {CEDUO_INTERCEPTION, CEDUO_CROFTON};
+    const int words[] = {CEDUO_RULE_INTERCEPTION, CEDUO_RULE_CROFTON};
     const double rows[] = {2500, 2700}, *const draws[] = {rows};
     const struct ceduo_input inputs[] = {{.path = places[0],
                                           .kind = CEDUO_INPUT_WORDS,

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: slow */
 /* Uncertainty over a rotation, compared with a separate simulation of every point with many more rocks. */
+#include "core/runs/statistics.h"
 #include "expect.h"
+#include "study/surface.h"
 
 #include <gsl/gsl_sort.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/request.h"
-#include "ceduo/statistics.h"
 #include "io/scene_file.h"
 #include "study/inputs.h"
 
@@ -75,7 +75,8 @@ static void simulate_point(struct input_scene *copy, const double *u, size_t poi
 
 static struct ceduo_uncertainty_def make_def(unsigned threads, size_t points)
 {
-    return (struct ceduo_uncertainty_def){.scene = &file.scene,
+    return (struct ceduo_uncertainty_def){.size = sizeof(struct ceduo_uncertainty_def),
+                                          .scene = &file.scene,
                                           .inputs_count = inputs.n,
                                           .inputs = inputs.items,
                                           .points = points,
@@ -205,7 +206,7 @@ TEST(a_rotation_equals_separate_points)
     expect_means();
     expect_failing();
     expect_order();
-    ceduo_uncertainty_free(&answer);
+    ceduo_uncertainty_release(&answer);
     ceduo_scene_release(&file);
 }
 
@@ -223,9 +224,9 @@ TEST(threads_do_not_change_a_rotation)
             assert_memory_equal(&f->fit.p5_se, &g->fit.p5_se, sizeof f->fit.p5_se);
         }
         if (threads > 1)
-            ceduo_uncertainty_free(&other);
+            ceduo_uncertainty_release(&other);
     }
-    ceduo_uncertainty_free(&answer);
+    ceduo_uncertainty_release(&answer);
     ceduo_scene_release(&file);
 }
 
@@ -251,8 +252,8 @@ TEST(one_option_alone_over_a_rotation)
         assert_null(ceduo_uncertainty_find_figure(&alone, 0, (enum ceduo_uncertainty_kind)kind, false)->fit.values);
     }
     EXPECT(alone.orders_count, ==, 0);
-    ceduo_uncertainty_free(&alone);
-    ceduo_uncertainty_free(&answer);
+    ceduo_uncertainty_release(&alone);
+    ceduo_uncertainty_release(&answer);
     ceduo_scene_release(&file);
 }
 
@@ -270,7 +271,7 @@ TEST(failing_years_differ_by_both_intervals)
     EXPECT(first->sampling_lo, <, first->sampling_hi); /* some years are near the limit */
     EXPECT_NEAR(difference->sampling_lo, second->sampling_lo - first->sampling_hi, 1e-12);
     EXPECT_NEAR(difference->sampling_hi, second->sampling_hi - first->sampling_lo, 1e-12);
-    ceduo_uncertainty_free(&answer);
+    ceduo_uncertainty_release(&answer);
     ceduo_scene_release(&file);
 }
 
@@ -287,11 +288,11 @@ TEST(figures_over_a_rotation)
     EXPECT_NEAR(mean->value, mean->fit.p50, .2);
     assert_true(isnan(years->value));
     assert_null(years->fit.values);
-    ceduo_uncertainty_free(&answer);
-    file.scene.simulation.contact_model = CEDUO_INDEX;
+    ceduo_uncertainty_release(&answer);
+    file.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
     ask(2, 8, &answer);
     assert_false(answer.rotation);
     assert_null(ceduo_uncertainty_find_figure(&answer, 0, CEDUO_UNCERTAINTY_MEAN, false)->fit.values);
-    ceduo_uncertainty_free(&answer);
+    ceduo_uncertainty_release(&answer);
     ceduo_scene_release(&file);
 }

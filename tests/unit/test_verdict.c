@@ -2,6 +2,7 @@
 /* tags: slow */
 /* Verdict while rocks are simulated: it appears with the first thousand rocks, stays known while figures are refined, and is
  * never reversed once clear. */
+#include "core/runs/run.h"
 #include "expect.h"
 #include "local.h"
 
@@ -137,15 +138,15 @@ TEST(an_edit_of_the_law_keeps_no_alternative)
     update_and_wait();
     const struct ceduo_alternative_energy *other = &live.result->options[0].alternatives[0];
     assert_true(other->known);
-    EXPECT(other->model, ==, CEDUO_DORREN);
+    EXPECT(other->model, ==, CEDUO_ENERGY_MODEL_DORREN);
     for (size_t i = 0; i < file.scene.options[0].belts_count; i++)
-        file.scene.options[0].belts[i].stand.energy = CEDUO_DORREN;
+        file.scene.options[0].belts[i].stand.energy = CEDUO_ENERGY_MODEL_DORREN;
     ceduo_live_update(&live, &file, 0, 0, 0);
     assert_false(live.result->options[0].alternatives[0].known);
     update_and_wait();
     other = &live.result->options[0].alternatives[0];
     assert_true(other->known);
-    EXPECT(other->model, ==, CEDUO_BRAUNER);
+    EXPECT(other->model, ==, CEDUO_ENERGY_MODEL_BRAUNER);
     close_scene();
 }
 
@@ -155,7 +156,7 @@ TEST(an_edit_of_the_contact_model_keeps_no_years)
     open_scene("profiles/scenes/paper-site.yaml");
     update_and_wait();
     EXPECT(live.verdict.choices[0].mean.mean, >, 0);
-    file.scene.simulation.contact_model = CEDUO_INDEX;
+    file.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
     ceduo_live_update(&live, &file, 0, 0, 0);
     EXPECT(live.verdict.choices[0].last_summary->years, ==, 0);
     update_and_wait();
@@ -216,7 +217,7 @@ static void make_equal_results(void)
     }
     file.scene.options = made.options;
     file.scene.options_count = OPTIONS;
-    made.index.contact = CEDUO_FAIL;
+    made.index.contact = CEDUO_LIGHT_FAIL;
 }
 
 static struct ceduo_verdict make_verdict(struct ceduo_years *const *years)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sentences about figures: a rounded interval still contains the original, and an option is best only if it leads by more than
  * three standard errors. */
+#include "core/runs/result.h"
 #include "local.h"
 #include "table.h"
 
@@ -110,7 +111,7 @@ TEST(the_other_law_is_compared_with_what_is_known)
         struct ceduo_simulated simulated[OPTIONS];
         const struct ceduo_simulated *wooded[OPTIONS];
         for (int i = 0; i < OPTIONS; i++) {
-            others[i] = (struct ceduo_alternative_energy){.known = true, .stems = true, .model = CEDUO_DORREN};
+            others[i] = (struct ceduo_alternative_energy){.known = true, .stems = true, .model = CEDUO_ENERGY_MODEL_DORREN};
             simulated[i] = (struct ceduo_simulated){.rocks = i < known ? 1000 : 0, .controls = 1, .arrivals = &arrivals[i]};
             wooded[i] = &simulated[i];
         }
@@ -137,9 +138,10 @@ TEST(an_answer_depends_where_the_laws_differ)
     static const struct {
         const double *own, *other;
         enum ceduo_judgement judged;
-    } cases[] = {
-        {yes, yes, CEDUO_YES},  {yes, no, CEDUO_DEPENDS}, {no, yes, CEDUO_DEPENDS},       {no, no, CEDUO_NO},
-        {open, yes, CEDUO_YES}, {open, no, CEDUO_NO},     {yes, open, CEDUO_NOT_DECIDED}, {no, open, CEDUO_NOT_DECIDED}};
+    } cases[] = {{yes, yes, CEDUO_JUDGEMENT_YES},          {yes, no, CEDUO_JUDGEMENT_DEPENDS},
+                 {no, yes, CEDUO_JUDGEMENT_DEPENDS},       {no, no, CEDUO_JUDGEMENT_NO},
+                 {open, yes, CEDUO_JUDGEMENT_YES},         {open, no, CEDUO_JUDGEMENT_NO},
+                 {yes, open, CEDUO_JUDGEMENT_NOT_DECIDED}, {no, open, CEDUO_JUDGEMENT_NOT_DECIDED}};
     for (size_t i = 0; i < LENGTH(cases); i++) {
         struct ceduo_alternative_energy others[OPTIONS] = {0};
         struct ceduo_simulated simulated[OPTIONS];

@@ -3,6 +3,8 @@
  * classes of trees, stumps and logs. The forest owns all kinds, strata and rings; belts only point to them. The key of a forest
  * is hashed from the same kinds and strata. */
 #include "forest.h"
+#include "core/stand/adc.h"
+#include "scene/stand.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +12,6 @@
 
 #include "base/elementary.h"
 #include "base/hash.h"
-#include "ceduo/trajectory.h"
 #include "core/stand/strata.h"
 
 /* ---- kinds ---- */
@@ -195,7 +196,7 @@ bool ceduo_forest_init(struct forest *forest, const struct ceduo_simulation *sim
                        const struct ceduo_rock *mean)
 {
     *forest = (struct forest){.bare = true};
-    if (!option || simulation->contact_model == CEDUO_INDEX)
+    if (!option || simulation->contact_model == CEDUO_CONTACT_MODEL_INDEX)
         return true;
     if (!allocate(forest, option))
         goto fail;
@@ -250,7 +251,7 @@ void ceduo_forest_release(struct forest *forest)
 bool ceduo_forest_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option)
 {
     bool bare = true;
-    if (!option || simulation->contact_model == CEDUO_INDEX)
+    if (!option || simulation->contact_model == CEDUO_CONTACT_MODEL_INDEX)
         return false;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];

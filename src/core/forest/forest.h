@@ -2,7 +2,6 @@
 #ifndef CEDUO_FOREST_H
 #define CEDUO_FOREST_H
 
-#include "ceduo/scene.h"
 #include "core/stand/energy.h"
 
 /* An option's forest, prepared belt by belt for drawing stems. */

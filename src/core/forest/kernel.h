@@ -2,7 +2,7 @@
 #ifndef CEDUO_KERNEL_H
 #define CEDUO_KERNEL_H
 
-#include "ceduo/run.h"
+#include "ceduo/simulate.h"
 #include "core/forest/stems_state.h"
 
 /* Functions compiled for each kind of registers. */

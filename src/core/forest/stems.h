@@ -6,8 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "ceduo/run.h"
-#include "ceduo/trajectory.h"
+#include "ceduo/simulate.h"
 #include "stems_state.h"
 
 /* Stems in the path of one rock, drawn as it reaches them. Stools and trees are Poisson processes in the plane. The rock sweeps

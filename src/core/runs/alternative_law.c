@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/alternative_law.h"
 
 #include <stdlib.h>
 
+#include "alternative_law.h"
+#include "run.h"
 #include "run_state.h"
+#include "scene/stand.h"
 
 enum ceduo_energy_model ceduo_alternative_law(const struct ceduo_option *option)
 {
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_stand *stand = &option->belts[i].stand;
-        if (!ceduo_stand_is_bare(stand) && stand->energy != CEDUO_DORREN)
-            return CEDUO_DORREN;
+        if (!ceduo_stand_is_bare(stand) && stand->energy != CEDUO_ENERGY_MODEL_DORREN)
+            return CEDUO_ENERGY_MODEL_DORREN;
     }
-    return CEDUO_BRAUNER;
+    return CEDUO_ENERGY_MODEL_BRAUNER;
 }
 
 bool ceduo_alternative_scene(const struct ceduo_scene *scene, struct ceduo_scene *alternative)

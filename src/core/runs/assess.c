@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/assess.h"
 
 #include <math.h>
 
+#include "assess.h"
+#include "core/stand/adc.h"
 #include "core/stand/strata.h"
+#include "scene/regulation.h"
+#include "scene/stand.h"
 
 /* ---- counted stems ---- */
 
@@ -76,7 +79,7 @@ static void add_belt_check(const struct ceduo_scene *scene, const struct ceduo_s
     meeting->worst_adc = fmax(meeting->worst_adc, frequency.adc);
     meeting->worst_free_run = fmax(meeting->worst_free_run, frequency.free_run);
     if (!(frequency.adc < scene->simulation.threshold)) /* true for NaN */
-        meeting->contact = CEDUO_FAIL;
+        meeting->contact = CEDUO_LIGHT_FAIL;
 }
 
 static void finish_check(const struct ceduo_scene *scene, bool forest, double longest_gap, struct ceduo_contact_check *meeting)
@@ -85,9 +88,9 @@ static void finish_check(const struct ceduo_scene *scene, bool forest, double lo
         *meeting = (struct ceduo_contact_check){.worst_adc = INFINITY, .worst_free_run = 1};
     double threshold = scene->simulation.threshold;
     if (!forest || longest_gap > threshold)
-        meeting->contact = CEDUO_FAIL;
+        meeting->contact = CEDUO_LIGHT_FAIL;
     bool rare = meeting->worst_free_run <= CEDUO_FREE_RUN_MAX && !(longest_gap > threshold);
-    meeting->free_run = rare ? CEDUO_PASS : CEDUO_FAIL;
+    meeting->free_run = rare ? CEDUO_LIGHT_PASS : CEDUO_LIGHT_FAIL;
 }
 
 bool ceduo_index_depends_on_thin_stems(const struct ceduo_index *index)
@@ -136,11 +139,11 @@ struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, co
 enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *a)
 {
     if (!a || isnan(a->exceed.mean))
-        return CEDUO_UNKNOWN;
+        return CEDUO_LIGHT_UNKNOWN;
     if (!(a->exceed.mean <= a->limit))
-        return CEDUO_FAIL;
+        return CEDUO_LIGHT_FAIL;
     double unfinished = (double)a->unfinished / (double)a->released;
-    return a->exceed.mean + unfinished <= a->limit ? CEDUO_PASS : CEDUO_UNKNOWN;
+    return a->exceed.mean + unfinished <= a->limit ? CEDUO_LIGHT_PASS : CEDUO_LIGHT_UNKNOWN;
 }
 
 /* ---- judgement ---- */
@@ -169,10 +172,10 @@ bool ceduo_too_few_arrivals(const struct ceduo_arrivals *bare)
 enum ceduo_judgement ceduo_judge_share(struct ceduo_estimate share, double limit)
 {
     if (isnan(share.mean))
-        return CEDUO_UNANSWERED;
+        return CEDUO_JUDGEMENT_UNANSWERED;
     if (share.lo <= limit && share.hi > limit)
-        return CEDUO_NOT_DECIDED;
-    return share.mean <= limit ? CEDUO_YES : CEDUO_NO;
+        return CEDUO_JUDGEMENT_NOT_DECIDED;
+    return share.mean <= limit ? CEDUO_JUDGEMENT_YES : CEDUO_JUDGEMENT_NO;
 }
 
 static enum ceduo_judgement judge_arrivals(const struct ceduo_arrivals *a)
@@ -183,10 +186,10 @@ static enum ceduo_judgement judge_arrivals(const struct ceduo_arrivals *a)
 enum ceduo_judgement ceduo_judge_control(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded)
 {
     if (ceduo_too_few_arrivals(bare))
-        return CEDUO_CANNOT_JUDGE;
+        return CEDUO_JUDGEMENT_CANNOT_JUDGE;
     if (wooded)
         return judge_arrivals(wooded);
-    return judge_arrivals(bare) == CEDUO_YES ? CEDUO_YES : CEDUO_UNANSWERED;
+    return judge_arrivals(bare) == CEDUO_JUDGEMENT_YES ? CEDUO_JUDGEMENT_YES : CEDUO_JUDGEMENT_UNANSWERED;
 }
 
 struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const struct ceduo_option *option,
@@ -194,8 +197,8 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
 {
     const struct ceduo_rock rock = ceduo_rock_mean(&scene->rock);
     double start = scene->release.x.mean, stems_end = start, min = scene->simulation.contact_dbh;
-    struct ceduo_index index = {.meet_nothing_probability = 1, .thick = {.contact = CEDUO_PASS}};
-    struct ceduo_contact_check all = {.contact = CEDUO_PASS};
+    struct ceduo_index index = {.meet_nothing_probability = 1, .thick = {.contact = CEDUO_LIGHT_PASS}};
+    struct ceduo_contact_check all = {.contact = CEDUO_LIGHT_PASS};
     bool forest = false;
     for (size_t i = 0; i < option->belts_count; i++) {
         struct ceduo_belt belt_part = option->belts[i];
@@ -227,7 +230,7 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
     index.worst_free_run = all.worst_free_run;
     index.contact = all.contact;
     index.free_run = all.free_run;
-    index.energy = CEDUO_UNKNOWN;
+    index.energy = CEDUO_LIGHT_UNKNOWN;
     index.exhausted = bare_mean < index.dissipated;
     index.residual = isnan(bare_mean) ? NAN : fmax(0, bare_mean - index.dissipated);
     index.measured = 0.5 * rock.mass * control->measured_speed * control->measured_speed;

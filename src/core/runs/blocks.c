@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/blocks.h"
 
 #include <math.h>
 
+#include "assess.h"
 #include "base/elementary.h"
-#include "ceduo/assess.h"
-#include "ceduo/variants.h"
+#include "blocks.h"
 #include "check.h"
+#include "run.h"
+#include "scene/derived.h"
+#include "scene/rock.h"
+#include "scene/schema.h"
+#include "variants.h"
 
 static struct ceduo_number scale_number(struct ceduo_number n, double factor)
 {
@@ -62,7 +66,7 @@ static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant
     b->diameter = rock.mean_diameter;
     b->adc = index.worst_adc;
     b->contacts = index.contacts;
-    bool simulates = def->scene->simulation.contact_model != CEDUO_INDEX;
+    bool simulates = def->scene->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX;
     bool reuses_run = b->own && def->own && def->own->released >= def->rocks && def->scene->blocks_count == 0;
     if (simulates && reuses_run)
         b->arrivals = *def->own;
@@ -101,12 +105,23 @@ struct ceduo_sizes_def ceduo_sizes_def_default(const struct ceduo_scene *scene)
                                     .threads = 1};
 }
 
+/* As the functions of check.h. */
+static enum ceduo_status check_sizes_def(const struct ceduo_sizes_def *def)
+{
+    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
+    if (status != CEDUO_OK)
+        return status;
+    bool good = def->option && def->control < def->scene->controls_count && def->rocks <= CEDUO_ROCKS_MAX &&
+                def->threads <= CEDUO_THREADS_MAX;
+    return good ? ceduo_check_stands(def->option) : CEDUO_BAD_ARGUMENT;
+}
+
 enum ceduo_status ceduo_sizes_simulate(const struct ceduo_sizes_def *def, struct ceduo_size_result blocks[CEDUO_SIZES])
 {
     static const double volumes[CEDUO_SIZES - 1] = {0.05, 0.2, 1, 5};
     struct ceduo_rock mean;
     size_t own = 0; /* index among the sorted volumes */
-    enum ceduo_status status = ceduo_check_sizes_def(def);
+    enum ceduo_status status = check_sizes_def(def);
     if (status == CEDUO_OK)
         status = ceduo_rock_from_means(&def->scene->rock, &mean);
     if (status != CEDUO_OK)

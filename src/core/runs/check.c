@@ -26,18 +26,10 @@ enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def)
 
 enum ceduo_status ceduo_check_request(const struct ceduo_request *q)
 {
-    enum ceduo_status status = ceduo_check_run_def(&q->run);
+    enum ceduo_status status = q->size == sizeof *q ? ceduo_check_run_def(&q->run) : CEDUO_BAD_ARGUMENT;
     if (status != CEDUO_OK)
         return status;
     size_t options = q->run.scene->options_count;
     bool good = options > 0 && q->rocks <= CEDUO_ROCKS_MAX && (q->only == CEDUO_ALL_OPTIONS || q->only < options);
     return good && (q->window.step == 0 || ceduo_check_window(q->window) == CEDUO_OK) ? CEDUO_OK : CEDUO_BAD_ARGUMENT;
-}
-
-enum ceduo_status ceduo_check_sizes_def(const struct ceduo_sizes_def *def)
-{
-    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
-    bool good = def->option && status == CEDUO_OK && def->control < def->scene->controls_count &&
-                def->rocks <= CEDUO_ROCKS_MAX && def->threads <= CEDUO_THREADS_MAX;
-    return status == CEDUO_OK ? good ? ceduo_check_stands(def->option) : CEDUO_BAD_ARGUMENT : status;
 }

@@ -2,8 +2,7 @@
 #ifndef CEDUO_CHECK_H
 #define CEDUO_CHECK_H
 
-#include "ceduo/blocks.h"
-#include "ceduo/request.h"
+#include "ceduo/simulate.h"
 
 /* Check the input of a caller before use: pointers, counts, indices, windows. Each returns CEDUO_OK, CEDUO_BAD_ARGUMENT, or the
  * status of a bad scene. Requires arrays as long as their counts, which cannot be checked. */
@@ -11,6 +10,5 @@
 enum ceduo_status ceduo_check_window(struct ceduo_window window);
 enum ceduo_status ceduo_check_run_def(const struct ceduo_run_def *def);
 enum ceduo_status ceduo_check_request(const struct ceduo_request *request);
-enum ceduo_status ceduo_check_sizes_def(const struct ceduo_sizes_def *def);
 
 #endif

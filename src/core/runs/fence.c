@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/fence.h"
 
 #include <math.h>
+
+#include "fence.h"
 
 const double ceduo_fence_class_energy[CEDUO_FENCE_CLASSES] = {100e3,  250e3,  500e3,  1000e3,  1500e3,
                                                               2000e3, 3000e3, 4500e3, INFINITY};

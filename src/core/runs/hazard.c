@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rates follow from the energies of the arriving rocks, sorted, with cumulative sums of weights from the largest on. The energy
  * of a return period is the first at which the curve, or a limit of its interval, reaches the rate. */
-#include "ceduo/hazard.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+#include "hazard.h"
 #include "weighted.h"
 
 const double ceduo_intensity_from[CEDUO_INTENSITIES + 1] = {0, 30e3, 300e3, INFINITY};

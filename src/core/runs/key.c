@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/key.h"
 
+#include "key.h"
 #include "base/hash.h"
 #include "core/forest/forest.h"
+#include "scene/derived.h"
 #include "scene/schema.h"
 
 /* Ground, rock, release and controls are hashed by the table of keys, so that a new row is in the key unless a flag excludes
@@ -80,7 +81,7 @@ uint64_t ceduo_scene_key(const struct ceduo_scene *original)
     hash_fields(&key, ceduo_schema_scene(), (const char *)&scene, false);
     for (size_t i = 0; i + 1 < scene.slope.vertices; i++)
         hash_fields(&key, ceduo_schema_segment(), (const char *)&scene.slope.segments[i], false);
-    ceduo_slope_simplified_free(&simplified);
+    ceduo_slope_simplified_release(&simplified);
     return key;
 }
 
@@ -105,7 +106,7 @@ uint64_t ceduo_option_key(const struct ceduo_scene *scene, const struct ceduo_op
 uint64_t ceduo_years_key(const struct ceduo_option *option)
 {
     uint64_t key = HASH_START;
-    const struct ceduo_simulation stems = {.contact_model = CEDUO_STEMS};
+    const struct ceduo_simulation stems = {.contact_model = CEDUO_CONTACT_MODEL_STEMS};
     ceduo_forest_hash(&key, &stems, option);
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One run per different forest of a scene, found by the key of the forest (key.c). The pool owns the runs, and frees runs that
  * its scene no longer needs, least recently used first. */
-#include "ceduo/pool.h"
 
 #include <stdlib.h>
 
+#include "alternative_law.h"
 #include "base/oom.h"
-#include "ceduo/alternative_law.h"
-#include "ceduo/key.h"
 #include "check.h"
+#include "key.h"
+#include "pool.h"
+#include "run.h"
+#include "statistics.h"
 
 struct pooled {
     uint64_t key;
@@ -157,7 +159,7 @@ static void free_spare(struct ceduo_pool *pool, size_t spare_max, size_t bytes_m
 void ceduo_pool_set_scene(struct ceduo_pool *pool, const struct ceduo_scene *scene)
 {
     pool->scene = *scene;
-    for (size_t i = 0; i < scene->options_count && scene->simulation.contact_model != CEDUO_INDEX; i++)
+    for (size_t i = 0; i < scene->options_count && scene->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX; i++)
         pool->filled &= ceduo_pool_find(pool, &scene->options[i]) != NULL;
     free_spare(pool, CEDUO_POOL_SPARE, 0);
 }
@@ -170,7 +172,7 @@ void ceduo_pool_trim(struct ceduo_pool *pool)
 enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
 {
     size_t n = pool->scene.options_count;
-    bool wooded = pool->scene.simulation.contact_model != CEDUO_INDEX;
+    bool wooded = pool->scene.simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX;
     enum ceduo_status status = CEDUO_OK;
     struct ceduo_run *run;
     for (size_t i = 0; i < n && status == CEDUO_OK && !pool->filled; i++) {

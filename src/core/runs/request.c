@@ -1,14 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/request.h"
 
 #include <stdlib.h>
 
+#include "blocks.h"
 #include "check.h"
+#include "pool.h"
+#include "result.h"
+#include "run.h"
+#include "year_runs.h"
 
 struct ceduo_request ceduo_request_default(const struct ceduo_scene *scene)
 {
-    return (struct ceduo_request){
-        .run = ceduo_run_def_default(scene), .rocks = scene->simulation.rocks, .only = CEDUO_ALL_OPTIONS};
+    return (struct ceduo_request){.size = sizeof(struct ceduo_request),
+                                  .run = ceduo_run_def_default(scene),
+                                  .rocks = scene->simulation.rocks,
+                                  .only = CEDUO_ALL_OPTIONS};
 }
 
 /* ---- simulating ---- */
@@ -21,8 +27,8 @@ static enum ceduo_status simulate_years(const struct ceduo_request *q, struct ce
     const struct ceduo_simulated *bare = &a->result->bare;
     uint64_t rocks = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
     rocks = q->year_rocks > 0 && q->year_rocks < rocks ? q->year_rocks : rocks;
-    bool separate =
-        q->years_independent && rocks > 0 && scene->blocks_count == 0 && scene->simulation.contact_model != CEDUO_INDEX;
+    bool separate = q->years_independent && rocks > 0 && scene->blocks_count == 0 &&
+                    scene->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX;
     struct ceduo_years **years = calloc(scene->options_count + 1, sizeof *years);
     *(rotation ? &a->rotations : &a->years) = years;
     enum ceduo_status status = years ? CEDUO_OK : CEDUO_NO_MEMORY;

@@ -1,13 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Results, read from the runs of a pool or from earlier results, with the assessment of every option. A result owns all its
  * arrays and points to the scene. */
-#include "ceduo/result.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "alternative_law.h"
+#include "assess.h"
+#include "hazard.h"
+#include "result.h"
+#include "run.h"
 #include "run_state.h"
+#include "scene/derived.h"
 
 /* ---- results of a run ---- */
 
@@ -18,7 +23,7 @@ static bool allocate_simulated(struct ceduo_simulated *f, size_t controls, bool 
     f->fences = f->arrivals && fences ? calloc(controls + 1, sizeof *f->fences) : NULL;
     if (f->arrivals && (f->curves || !curves) && (f->fences || !fences))
         return true;
-    ceduo_simulated_free(f);
+    ceduo_simulated_release(f);
     return false;
 }
 
@@ -42,7 +47,7 @@ enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, const struct
         a->fence = fences ? &f->fences[c] : NULL;
     }
     if (status != CEDUO_OK)
-        ceduo_simulated_free(f);
+        ceduo_simulated_release(f);
     return status;
 }
 
@@ -64,7 +69,7 @@ static enum ceduo_status copy_simulated(const struct ceduo_simulated *from, stru
     return CEDUO_OK;
 }
 
-void ceduo_simulated_free(struct ceduo_simulated *f)
+void ceduo_simulated_release(struct ceduo_simulated *f)
 {
     free(f->arrivals);
     free(f->curves);
@@ -100,8 +105,8 @@ void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_optio
         if (!ceduo_too_few_arrivals(&bare->arrivals[c]))
             continue;
         /* if rocks do not arrive even without forest, a passing light would wrongly credit the forest */
-        controls[c].contact = controls[c].free_run = controls[c].energy = CEDUO_UNKNOWN;
-        controls[c].thick.contact = controls[c].thick.free_run = CEDUO_UNKNOWN;
+        controls[c].contact = controls[c].free_run = controls[c].energy = CEDUO_LIGHT_UNKNOWN;
+        controls[c].thick.contact = controls[c].thick.free_run = CEDUO_LIGHT_UNKNOWN;
     }
 }
 
@@ -112,7 +117,7 @@ static struct ceduo_result *allocate_result(const struct ceduo_scene *scene)
         return NULL;
     *r = (struct ceduo_result){.scene = scene,
                                .rock = ceduo_rock_mean(&scene->rock),
-                               .wooded = scene->simulation.contact_model != CEDUO_INDEX,
+                               .wooded = scene->simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX,
                                .options = calloc(scene->options_count + 1, sizeof *r->options)};
     r->options_count = r->options ? scene->options_count : 0;
     bool good = r->options != NULL;
@@ -152,9 +157,11 @@ static enum ceduo_status assess_options(struct ceduo_result *r, enum ceduo_statu
             enum ceduo_judgement judgement = ceduo_judge_control(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c));
             const struct ceduo_arrivals *a = &alt->arrivals;
             enum ceduo_judgement alt_judgement = ceduo_judge_share(a->exceed, a->limit);
-            bool differ =
-                (judgement == CEDUO_YES && alt_judgement == CEDUO_NO) || (judgement == CEDUO_NO && alt_judgement == CEDUO_YES);
-            alt->judgement = judgement == CEDUO_CANNOT_JUDGE ? judgement : differ ? CEDUO_DEPENDS : alt_judgement;
+            bool differ = (judgement == CEDUO_JUDGEMENT_YES && alt_judgement == CEDUO_JUDGEMENT_NO) ||
+                          (judgement == CEDUO_JUDGEMENT_NO && alt_judgement == CEDUO_JUDGEMENT_YES);
+            alt->judgement = judgement == CEDUO_JUDGEMENT_CANNOT_JUDGE ? judgement
+                             : differ                                  ? CEDUO_JUDGEMENT_DEPENDS
+                                                                       : alt_judgement;
         }
         ceduo_result_read(scene, &scene->options[i], &r->bare, r->wooded ? &o->wooded : &none, o->stands, o->controls);
     }
@@ -232,10 +239,10 @@ void ceduo_result_free(struct ceduo_result *result)
         free(result->options[i].controls);
         free(result->options[i].differences);
         free(result->options[i].alternatives);
-        ceduo_simulated_free(&result->options[i].wooded);
+        ceduo_simulated_release(&result->options[i].wooded);
     }
     free(result->options);
-    ceduo_simulated_free(&result->bare);
+    ceduo_simulated_release(&result->bare);
     free(result);
 }
 
@@ -254,9 +261,9 @@ uint64_t ceduo_result_rocks(const struct ceduo_result *result)
 
 uint64_t ceduo_result_unfinished(const struct ceduo_result *result)
 {
-    uint64_t max = result->bare.ends.count[CEDUO_UNFINISHED];
+    uint64_t max = result->bare.ends.count[CEDUO_END_UNFINISHED];
     for (size_t i = 0; i < result->options_count; i++) {
-        uint64_t n = result->options[i].wooded.ends.count[CEDUO_UNFINISHED];
+        uint64_t n = result->options[i].wooded.ends.count[CEDUO_END_UNFINISHED];
         max = n > max ? n : max;
     }
     return max;

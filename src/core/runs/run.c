@@ -6,7 +6,9 @@
 #include "check.h"
 #include "core/forest/kernel.h"
 #include "core/walk/walk.h"
+#include "run.h"
 #include "run_state.h"
+#include "scene/derived.h"
 
 #define CHUNK_SECONDS 0.5 /* target duration of a chunk, so that progress is reported regularly */
 

@@ -2,7 +2,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "fence.h"
+#include "run.h"
 #include "run_state.h"
+#include "scene/derived.h"
+#include "scene/slope.h"
 
 #define SERVICE (1 / 3.0) /* service energy level (SEL) over maximum energy level (MEL) of a class */
 
@@ -93,7 +97,7 @@ static void read_shares(const struct ceduo_run *run, const struct ceduo_scene *s
     const struct sums s = ceduo_run_sums_at(run, control);
     struct weight_totals totals = {.n = (double)run->rocks, .w = (double)run->rocks, .ww = (double)run->rocks};
     if (run->weighted)
-        totals = ceduo_run_weight_totals(run, s.end_weights[CEDUO_UNFINISHED]);
+        totals = ceduo_run_weight_totals(run, s.end_weights[CEDUO_END_UNFINISHED]);
     struct weighted_sum above = {0}, through = {0}, both = {0}, defeated = {0}, worn = {0};
     struct weighted_sum cells[CEDUO_FENCE_HEIGHTS + 1][CEDUO_FENCE_CLASSES] = {{{0}}}; /* by lowest height and needed class */
     double held[CEDUO_FENCE_CLASSES] = {0}, higher = 0;                                /* by the height of the fence */
@@ -114,14 +118,14 @@ static void read_shares(const struct ceduo_run *run, const struct ceduo_scene *s
     const struct weighted_sum *const sums[] = {&above, &through, &both, &defeated, &worn};
     struct ceduo_estimate *const to[] = {&f->above, &f->through, &f->both, &f->defeated, &f->worn};
     for (size_t i = 0; i < 5; i++)
-        *to[i] = estimate_share(run, &totals, s.end_counts[CEDUO_UNFINISHED], sums[i]);
+        *to[i] = estimate_share(run, &totals, s.end_counts[CEDUO_END_UNFINISHED], sums[i]);
     struct weighted_sum highest = {0};
     for (size_t h = CEDUO_FENCE_HEIGHTS; h-- > 0;) { /* rocks above the height, and those below that need a larger class */
         for (size_t i = 0; i < CEDUO_FENCE_CLASSES; i++)
             add_sum(&highest, &cells[h + 1][i]);
         struct weighted_sum all = highest;
         for (size_t i = CEDUO_FENCE_CLASSES; i-- > 0;) {
-            f->grid.defeated[h][i] = estimate_share(run, &totals, s.end_counts[CEDUO_UNFINISHED], &all);
+            f->grid.defeated[h][i] = estimate_share(run, &totals, s.end_counts[CEDUO_END_UNFINISHED], &all);
             for (size_t k = 0; k <= h; k++)
                 add_sum(&all, &cells[k][i]);
         }

@@ -3,7 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hazard.h"
+#include "run.h"
 #include "run_state.h"
+#include "scene/derived.h"
+#include "scene/rock.h"
 
 /* ---- rocks with weights ---- */
 
@@ -60,7 +64,7 @@ static size_t gather_weighted(const struct ceduo_run *run, const double *column,
 static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t control, const struct sums *s,
                                        struct ceduo_arrivals *a, struct ceduo_hazard_curve *curve)
 {
-    struct weight_totals totals = ceduo_run_weight_totals(run, s->end_weights[CEDUO_UNFINISHED]);
+    struct weight_totals totals = ceduo_run_weight_totals(run, s->end_weights[CEDUO_END_UNFINISHED]);
     const double accepted = run->prepared.scene.controls[control].accepted;
     struct ceduo_distribution *const to[QUANTITIES] = {
         [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
@@ -140,7 +144,7 @@ static enum ceduo_status read_arrivals(const struct ceduo_run *run, size_t contr
     *a = (struct ceduo_arrivals){.released = run->rocks,
                                  .reached = s.moments[SPEED].n,
                                  .exceeded = s.exceeded,
-                                 .unfinished = s.end_counts[CEDUO_UNFINISHED],
+                                 .unfinished = s.end_counts[CEDUO_END_UNFINISHED],
                                  .exceed = CEDUO_NO_ESTIMATE,
                                  .contacts = CEDUO_NO_ESTIMATE,
                                  .hazard = ceduo_hazard_none(),

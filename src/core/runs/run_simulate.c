@@ -69,13 +69,13 @@ static void on_end(void *context, size_t lane, enum ceduo_end end)
     }
     w->batch->contacts += walker->contacts;
     w->batch->ends[end]++;
-    w->batch->uphill += end == CEDUO_LEFT_SLOPE && !(walker->flight.x > 0);
-    w->batch->early += end == CEDUO_STOPPED_BY_STEMS && walker->flight.x < walker->release->x.mean + CEDUO_EARLY_M;
+    w->batch->uphill += end == CEDUO_END_LEFT_SLOPE && !(walker->flight.x > 0);
+    w->batch->early += end == CEDUO_END_STOPPED_BY_STEMS && walker->flight.x < walker->release->x.mean + CEDUO_EARLY_M;
     w->ends[walker->number - w->from] = (unsigned char)end;
     const struct marks *marks = &w->run->prepared.marks;
     for (size_t m = walker->next_mark; m < marks->n; m++) /* count the end at each control that the rock did not reach */
         w->batch->controls[marks->items[m].control].end_counts[end]++;
-    if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
+    if (end == CEDUO_END_AT_REST || end == CEDUO_END_STOPPED_BY_STEMS)
         w->stops[walker->number - w->from] = walker->flight.x;
     if (walker->cancelled)
         atomic_store(&w->chunk->stop, true);
@@ -102,9 +102,9 @@ static bool next_rock(void *context, size_t lane)
         if (run->identical && !again)
             w->first = *walker;
         if (!drawn) { /* no trajectory: unfinished before every control */
-            w->batch->ends[CEDUO_UNFINISHED]++;
+            w->batch->ends[CEDUO_END_UNFINISHED]++;
             for (size_t c = 0; c < run->controls; c++)
-                w->batch->controls[c].end_counts[CEDUO_UNFINISHED]++;
+                w->batch->controls[c].end_counts[CEDUO_END_UNFINISHED]++;
             continue;
         }
         return true;
@@ -173,7 +173,7 @@ static int simulate_batch(void *context, size_t i, size_t worker)
     w->to = to > chunk->end ? chunk->end : to;
     w->batch = &run->slots[i];
     memset(w->arrivals, 0, run->controls * CEDUO_BATCH_ROCKS * sizeof *w->arrivals);
-    memset(w->ends, CEDUO_UNFINISHED, sizeof w->ends);
+    memset(w->ends, CEDUO_END_UNFINISHED, sizeof w->ends);
     for (size_t k = 0; k < CEDUO_BATCH_ROCKS; k++)
         w->stops[k] = NAN;
     const struct lanes_job job = {.ground = run->lanes_ground,

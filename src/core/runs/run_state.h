@@ -2,9 +2,9 @@
 #ifndef CEDUO_RUN_STATE_H
 #define CEDUO_RUN_STATE_H
 
-#include "ceduo/run.h"
 #include "core/walk/lanes.h"
 #include "core/walk/prepared.h"
+#include "statistics.h"
 #include "weighted.h"
 
 /* Internals of a run; included only by run*.c.
@@ -97,6 +97,8 @@ static inline struct ceduo_estimate ceduo_run_share(uint64_t hits, uint64_t unfi
 
 /* Set the limits of arrivals by a scene, which may differ from that of the run in its accepted return periods. */
 void ceduo_arrivals_set_limit(struct ceduo_arrivals *arrivals, const struct ceduo_scene *scene, size_t control);
+
+struct ceduo_group_means;
 
 /* Set the defeated shares of the groups of ceduo_run_group_means(). Requires a fence at the control. */
 void ceduo_run_group_defeats(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_group_means *briefs);

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/statistics.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
@@ -7,7 +6,7 @@
 #include <stdlib.h>
 
 #include "base/gsl_errors.h"
-#include "weighted.h"
+#include "statistics.h"
 
 void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments *from)
 {

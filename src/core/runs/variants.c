@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/variants.h"
 
 #include <stdlib.h>
 
-#include "ceduo/key.h"
+#include "key.h"
+#include "pool.h"
+#include "run.h"
+#include "variants.h"
 
 /* Keys of the trajectories of a variant. */
 struct variant_key {

@@ -2,19 +2,11 @@
 #ifndef CEDUO_WEIGHTED_H
 #define CEDUO_WEIGHTED_H
 
-#include "ceduo/hazard.h"
-#include "ceduo/statistics.h"
+#include "ceduo/simulate.h"
 
 /* Statistics of rocks with weights of mean 1 (prepared.h). Shares and means are weighted, and divided by the sum of all
  * weights, so that no share exceeds 1. The error is that of the regression estimator on the weights, whose mean is known
  * (Cochran 1977); it excludes the part caused by drawing heavy rocks too often. Equal weights give plain statistics. */
-
-/* One percentile of a distribution. */
-#define PERCENTILES 3
-struct percentile {
-    double p, *value, *lo, *hi;
-};
-struct percentile ceduo_percentile_compute(struct ceduo_distribution *distribution, size_t k);
 
 /* Totals of all released rocks. */
 struct weight_totals {

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/years.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,10 +6,18 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "ceduo/variants.h"
 #include "check.h"
+#include "core/stand/rotation.h"
+#include "hazard.h"
+#include "pool.h"
+#include "result.h"
+#include "run.h"
+#include "scene/derived.h"
 #include "scene/schema.h"
+#include "statistics.h"
+#include "variants.h"
 #include "weighted.h"
+#include "year_runs.h"
 
 /* ---- windows ---- */
 
@@ -148,7 +155,7 @@ void ceduo_years_free(struct ceduo_years *years)
         free(y->option.belts);
         free(y->stands);
         free(y->controls);
-        ceduo_simulated_free(&y->wooded);
+        ceduo_simulated_release(&y->wooded);
     }
     free(years->years);
     free(years->marks);
@@ -212,7 +219,7 @@ static enum ceduo_status add_year(void *context, size_t i, struct ceduo_run *run
     struct ceduo_years *years = r->years;
     struct ceduo_year *y = &years->years[i];
     (void)rocks;
-    ceduo_simulated_free(&y->wooded);
+    ceduo_simulated_release(&y->wooded);
     enum ceduo_status status = ceduo_simulated_read(run, &years->scene, r->bare, &y->wooded);
     if (status != CEDUO_OK)
         return status;
@@ -245,7 +252,7 @@ enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_p
                                        uint64_t rocks)
 {
     struct years_run r = {.years = years, .pool = pool, .bare = bare};
-    r.rocks = years->scene.simulation.contact_model != CEDUO_INDEX ? rocks : 0;
+    r.rocks = years->scene.simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX ? rocks : 0;
     if (r.rocks > 0 && !clear_marks(years, rocks))
         return CEDUO_NO_MEMORY;
     enum ceduo_status status = ceduo_variants_run(
@@ -332,16 +339,16 @@ struct ceduo_years_summary ceduo_years_summarize(const struct ceduo_years *years
         s.nothing = true;
         return s;
     }
-    bool simulates = years->scene.simulation.contact_model != CEDUO_INDEX;
+    bool simulates = years->scene.simulation.contact_model != CEDUO_CONTACT_MODEL_INDEX;
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *y = &years->years[i];
         const struct ceduo_index *index = &y->controls[control];
-        s.nothing |= index->contact == CEDUO_UNKNOWN;
-        s.unprotected_contact += index->contact == CEDUO_FAIL;
-        s.unprotected_free_run += index->free_run == CEDUO_FAIL;
-        s.thick_contact += index->thick.contact == CEDUO_FAIL;
-        s.thick_free_run += index->thick.free_run == CEDUO_FAIL;
-        s.unprotected_energy += index->energy == CEDUO_FAIL;
+        s.nothing |= index->contact == CEDUO_LIGHT_UNKNOWN;
+        s.unprotected_contact += index->contact == CEDUO_LIGHT_FAIL;
+        s.unprotected_free_run += index->free_run == CEDUO_LIGHT_FAIL;
+        s.thick_contact += index->thick.contact == CEDUO_LIGHT_FAIL;
+        s.thick_free_run += index->thick.free_run == CEDUO_LIGHT_FAIL;
+        s.unprotected_energy += index->energy == CEDUO_LIGHT_FAIL;
         if (y->wooded.rocks > 0) {
             const struct ceduo_arrivals *a = &y->wooded.arrivals[control];
             double n = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/adc.h"
 
 #include <math.h>
 
+#include "adc.h"
 #include "base/elementary.h"
 #include "energy.h"
+#include "scene/stand.h"
 #include "strata.h"
 
 /* ---- counted stems ---- */
@@ -77,16 +78,16 @@ struct adc_term {
 /* Return the term of the stools, in a form that counts each stool as one. */
 static struct adc_term make_stools_term(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
-    double count = 0, energy = 0, width = count_stems(stand, rule == CEDUO_GSTEIGER_STOOLS).dbh;
+    double count = 0, energy = 0, width = count_stems(stand, rule == CEDUO_RULE_GSTEIGER_STOOLS).dbh;
     for (size_t i = 0; i < stand->shoots_count; i++) {
         if (!is_counted(stand, &stand->shoots[i]))
             continue;
         count += stand->shoots[i].per_ha;
         energy += stand->shoots[i].per_ha * ceduo_contact_energy(stand, &stand->shoots[i]);
     }
-    if (rule == CEDUO_INTERCEPTION)
+    if (rule == CEDUO_RULE_INTERCEPTION)
         width += stand->spacing;
-    else if (rule != CEDUO_GSTEIGER_STOOLS)
+    else if (rule != CEDUO_RULE_GSTEIGER_STOOLS)
         width += ceduo_stool_perimeter(counted_shoots(stand) / counted_stools(stand), stand->spacing) / M_PI;
     return (struct adc_term){counted_stools(stand), width, energy / count};
 }
@@ -94,7 +95,7 @@ static struct adc_term make_stools_term(const struct ceduo_stand *stand, enum ce
 /* Return the number of terms of the shoots. */
 static size_t count_shoot_terms(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
-    return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : counted_shoots(stand) > 0;
+    return rule == CEDUO_RULE_GSTEIGER_STEMS ? stand->shoots_count : counted_shoots(stand) > 0;
 }
 
 /* Return the number of terms of a stand in a form of the ADC (not AUTO). These are the stools, or with gsteiger-stems each
@@ -112,7 +113,7 @@ double ceduo_log_width(double length)
 static struct adc_term make_term(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i)
 {
     size_t n = count_shoot_terms(stand, rule);
-    if (i < n && rule != CEDUO_GSTEIGER_STEMS)
+    if (i < n && rule != CEDUO_RULE_GSTEIGER_STEMS)
         return make_stools_term(stand, rule);
     const struct ceduo_stumps *stumps = &stand->stumps; /* stumps if any, then logs */
     if (i == n + stand->trees_count && stumps->per_ha > 0)
@@ -120,7 +121,7 @@ static struct adc_term make_term(const struct ceduo_stand *stand, enum ceduo_rul
     if (i >= n + stand->trees_count)
         return (struct adc_term){stand->logs.per_ha, ceduo_log_width(stand->logs.length), stand->logs.energy};
     const struct ceduo_stems *s = i < n ? &stand->shoots[i] : &stand->trees[i - n];
-    double width = rule == CEDUO_GSTEIGER_STOOLS ? count_stems(stand, true).dbh : s->dbh;
+    double width = rule == CEDUO_RULE_GSTEIGER_STOOLS ? count_stems(stand, true).dbh : s->dbh;
     return (struct adc_term){is_counted(stand, s) ? s->per_ha : 0, width, ceduo_contact_energy(stand, s)};
 }
 
@@ -137,25 +138,25 @@ static double denominator_per_ha(const struct ceduo_stand *stand, double b, enum
 
 struct ceduo_adc ceduo_adc(const struct ceduo_stand *stand, double b)
 {
-    return (struct ceduo_adc){.gsteiger_stools = HECTARE / denominator_per_ha(stand, b, CEDUO_GSTEIGER_STOOLS, false),
-                              .gsteiger_stems = HECTARE / denominator_per_ha(stand, b, CEDUO_GSTEIGER_STEMS, false),
-                              .interception = HECTARE / denominator_per_ha(stand, b, CEDUO_INTERCEPTION, false),
-                              .crofton = HECTARE / denominator_per_ha(stand, b, CEDUO_CROFTON, false)};
+    return (struct ceduo_adc){.gsteiger_stools = HECTARE / denominator_per_ha(stand, b, CEDUO_RULE_GSTEIGER_STOOLS, false),
+                              .gsteiger_stems = HECTARE / denominator_per_ha(stand, b, CEDUO_RULE_GSTEIGER_STEMS, false),
+                              .interception = HECTARE / denominator_per_ha(stand, b, CEDUO_RULE_INTERCEPTION, false),
+                              .crofton = HECTARE / denominator_per_ha(stand, b, CEDUO_RULE_CROFTON, false)};
 }
 
 enum ceduo_rule ceduo_adc_rule(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
 {
     if (rule != CEDUO_RULE_AUTO)
         return rule;
-    return !(counted_shoots(stand) > 0) || b < stand->spacing ? CEDUO_GSTEIGER_STEMS : CEDUO_INTERCEPTION;
+    return !(counted_shoots(stand) > 0) || b < stand->spacing ? CEDUO_RULE_GSTEIGER_STEMS : CEDUO_RULE_INTERCEPTION;
 }
 
 double ceduo_adc_value(const struct ceduo_adc *adc, enum ceduo_rule rule)
 {
-    const double forms[] = {[CEDUO_GSTEIGER_STOOLS] = adc->gsteiger_stools,
-                            [CEDUO_GSTEIGER_STEMS] = adc->gsteiger_stems,
-                            [CEDUO_INTERCEPTION] = adc->interception,
-                            [CEDUO_CROFTON] = adc->crofton};
+    const double forms[] = {[CEDUO_RULE_GSTEIGER_STOOLS] = adc->gsteiger_stools,
+                            [CEDUO_RULE_GSTEIGER_STEMS] = adc->gsteiger_stems,
+                            [CEDUO_RULE_INTERCEPTION] = adc->interception,
+                            [CEDUO_RULE_CROFTON] = adc->crofton};
     return forms[rule];
 }
 
@@ -173,9 +174,9 @@ unsigned ceduo_stem_warnings(const struct ceduo_stand *stand, const struct ceduo
     double dbh_max = stand->species >= 0 ? ceduo_species_list(&n)[stand->species].d_hi / 100 : INFINITY;
     if (!(stems->per_ha > 0))
         return 0;
-    return (ABOVE(slender, CEDUO_SLENDERNESS_MAX) ? CEDUO_WARN_SLENDER : 0u) |
-           (ABOVE(CEDUO_SLENDERNESS_MIN, slender) ? CEDUO_WARN_STOUT : 0u) |
-           (ABOVE(stems->dbh, dbh_max) ? CEDUO_WARN_THICK : 0u);
+    return (ABOVE(slender, CEDUO_SLENDERNESS_MAX) ? CEDUO_WARNING_SLENDER : 0u) |
+           (ABOVE(CEDUO_SLENDERNESS_MIN, slender) ? CEDUO_WARNING_STOUT : 0u) |
+           (ABOVE(stems->dbh, dbh_max) ? CEDUO_WARNING_THICK : 0u);
 }
 
 unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
@@ -183,9 +184,9 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
     if (ceduo_stand_is_bare(stand))
         return 0;
     unsigned warnings =
-        (stand->stumps.per_ha > 0 || stand->logs.per_ha > 0 ? CEDUO_WARN_LOW : 0u) |
-        (ABOVE(ceduo_stand_basal_area(stand), CEDUO_BASAL_AREA_MAX) ? CEDUO_WARN_BASAL_AREA : 0u) |
-        (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MAX * stand->stools_per_ha) ? CEDUO_WARN_MANY_SHOOTS : 0u);
+        (stand->stumps.per_ha > 0 || stand->logs.per_ha > 0 ? CEDUO_WARNING_LOW : 0u) |
+        (ABOVE(ceduo_stand_basal_area(stand), CEDUO_BASAL_AREA_MAX) ? CEDUO_WARNING_BASAL_AREA : 0u) |
+        (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MAX * stand->stools_per_ha) ? CEDUO_WARNING_MANY_SHOOTS : 0u);
     for (size_t i = 0; i < stand->shoots_count + stand->trees_count; i++) {
         const struct ceduo_stems *s = i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
         warnings |= ceduo_stem_warnings(stand, s) | (s->per_ha > 0 ? ceduo_stem_energy_warnings(stand, s) : 0);
@@ -194,10 +195,10 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
         return warnings;
     struct ceduo_adc adc = ceduo_adc(stand, b);
     if (adc.interception < adc.gsteiger_stems)
-        warnings |= CEDUO_WARN_BELOW_FREE_PATH;
+        warnings |= CEDUO_WARNING_BELOW_FREE_PATH;
     if (rule == CEDUO_RULE_AUTO && fabs(b - stand->spacing) < 0.1 * stand->spacing)
-        warnings |= CEDUO_WARN_NEAR_JUMP;
+        warnings |= CEDUO_WARNING_NEAR_JUMP;
     if (stand->spacing > b + count_stems(stand, false).dbh)
-        warnings |= CEDUO_WARN_WIDE_SPACING;
+        warnings |= CEDUO_WARNING_WIDE_SPACING;
     return warnings;
 }

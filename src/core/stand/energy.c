@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "energy.h"
+#include "ceduo/simulate.h"
+#include "scene/volume.h"
 
 #include <math.h>
 
@@ -94,5 +96,5 @@ unsigned ceduo_volume_warning(const struct ceduo_stand *stand, const struct cedu
 {
     enum ceduo_volume_from from;
     ceduo_stem_volume(stand, stems, &from);
-    return from == CEDUO_VOLUME_FORM_FACTOR ? CEDUO_WARN_FORM_FACTOR : 0u;
+    return from == CEDUO_VOLUME_FORM_FACTOR ? CEDUO_WARNING_FORM_FACTOR : 0u;
 }

@@ -4,7 +4,6 @@
 
 #include <stdint.h>
 
-#include "ceduo/adc.h"
 #include "scene/volume.h"
 
 /* Energy law of one kind of stems, prepared for many hits. Its numbers are hashed. */
@@ -24,7 +23,7 @@ struct energy_law {
     double (*hit)(const struct stem_energy *e, double dbh, double share);
     /* True if hit() depends on `share`. */
     bool (*by_eccentricity)(const struct stem_energy *e);
-    /* Returns bits of enum ceduo_stand_warning. */
+    /* Returns bits of enum ceduo_warning. */
     unsigned (*warnings)(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
 };
 
@@ -47,7 +46,19 @@ unsigned ceduo_stem_energy_warnings(const struct ceduo_stand *stand, const struc
 #define DORREN_EXPONENT(u)     (LN10 * ((DORREN_CENTRE - (u)) * -DORREN_STEEPNESS))
 #define DORREN_SHARE_OF(power) (DORREN_LOW + DORREN_SPAN / (1.0 + (power)))
 
-/* Return CEDUO_WARN_FORM_FACTOR if a volume is by the form factor. */
+/* Return CEDUO_WARNING_FORM_FACTOR if a volume is by the form factor. */
 unsigned ceduo_volume_warning(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
+
+/* Return the energy (J) that a contact with one of `stems` takes. brauner: V·U (Eq. 3 of Ciabocco et al. 2009). dorren: mean
+ * over all eccentricities (0.558) of E = FE·38.7·dbh_cm^2.31 (Dorren et al. 2006). */
+double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
+
+/* dorren: maximum energy (J) of a stem of `dbh` m, and the share of it at eccentricity u = |offset|/((B + d)/2), 0…1, clamped
+ * (Dorren et al. 2006). */
+double ceduo_dorren_energy(double dbh, double fracture_ratio);
+double ceduo_dorren_share(double u);
+
+/* Return the mean of ceduo_dorren_share() over u uniform in 0…1. */
+double ceduo_dorren_mean_share(void);
 
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Dorren et al. 2006: FE·38.7·dbh_cm^2.31 J for a centred hit, less off the centre. */
+#include "ceduo/simulate.h"
 #include "energy.h"
+#include "scene/species.h"
 
 #define DBH_MIN 0.1 /* m: thinner stems are outside the data */
 
@@ -33,8 +35,8 @@ static unsigned warnings(const struct ceduo_stand *stand, const struct ceduo_ste
 {
     size_t count;
     bool is_known = stand->species >= 0 && !isnan(ceduo_species_list(&count)[stand->species].fracture_ratio);
-    return (stems->dbh < DBH_MIN ? CEDUO_WARN_DORREN_THIN : 0u) |
-           (isnan(stand->fracture_ratio) && !is_known ? CEDUO_WARN_RATIO_ASSUMED : 0u);
+    return (stems->dbh < DBH_MIN ? CEDUO_WARNING_DORREN_THIN : 0u) |
+           (isnan(stand->fracture_ratio) && !is_known ? CEDUO_WARNING_RATIO_ASSUMED : 0u);
 }
 
 const struct energy_law ceduo_energy_dorren = {

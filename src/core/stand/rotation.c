@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stands of future years, see rotation.h. Before the first cut the inventory grows along its curves. After it the stand depends
  * only on the years since the last cut. A grown stand owns one array, shoots first, then trees. */
-#include "ceduo/rotation.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/elementary.h"
+#include "rotation.h"
+#include "scene/stand.h"
 
 #define SHOOTS_FALL 5.0  /* years in which the surplus of shoots decays to 1/e; assumed */
 #define GROWTH_MAX  1e9  /* growth factor above which the age counts as 0 */

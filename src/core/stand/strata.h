@@ -2,8 +2,6 @@
 #ifndef CEDUO_STRATA_H
 #define CEDUO_STRATA_H
 
-#include "ceduo/adc.h"
-
 #define HECTARE 1e4 /* m2 */
 
 /* Return the mean width (m) of a log of `length` m at a random angle, in addition to the rock's diameter (Buffon): 2 L/pi. */

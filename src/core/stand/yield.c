@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/yield.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+#include "rotation.h"
 #include "scene/schema.h"
+#include "scene/stand.h"
+#include "scene/volume.h"
+#include "yield.h"
 
 /* ---- one stand ---- */
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each place becomes a control of a copy of the scene; rocks are simulated one by one. */
 #include "envelope.h"
+#include "ceduo/simulate.h"
 
 #include <gsl/gsl_statistics.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/parallel.h"
-#include "ceduo/trajectory.h"
 #include "prepared.h"
 
 /* Values of the rocks that pass a place. */

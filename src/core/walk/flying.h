@@ -7,7 +7,9 @@
 #include <gsl/gsl_interp.h>
 
 #include "base/parallel.h"
+#include "ceduo/simulate.h"
 #include "landing.h"
+#include "scene/rock.h"
 #include "strike.h"
 
 #ifndef PAUSE
@@ -270,7 +272,7 @@ FORCE_INLINE void turn_facet(struct walker *w, size_t j, struct facet *f)
 {
     double largest = largest_facet(w, j), angle = 0;
     if (largest > 0)
-        angle = facet_angle(w->g->facets == CEDUO_AGAINST, largest, contact_draw(w, &w->facets, RANDOM_FACET));
+        angle = facet_angle(w->g->facets == CEDUO_FACETS_AGAINST, largest, contact_draw(w, &w->facets, RANDOM_FACET));
     if (angle != f->angle) {
         f->angle = angle;
         elementary_sincos(&angle, &f->sine, &f->cosine);
@@ -283,7 +285,7 @@ FORCE_INLINE void strike_ground(struct walker *w, struct flight *flight, struct 
     const struct ground_segment *s = &w->g->segments[flight->segment];
     turn_facet(w, flight->segment, facet);
     double sine = facet->sine, cosine = facet->cosine;
-    facet_struck(w->g->facets == CEDUO_AGAINST, *v, &sine, &cosine);
+    facet_struck(w->g->facets == CEDUO_FACETS_AGAINST, *v, &sine, &cosine);
     struct ground_point point = ground_point(w, flight->segment);
     if (law->sections)
         turn_section(w, &point);

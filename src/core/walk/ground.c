@@ -3,6 +3,7 @@
  * chunks of chunks, get an upper bound of the rise of the ground above their chord, so that a long flight can skip a whole
  * chunk. The ground owns its columns but points to the slope's segments. */
 #include "ground.h"
+#include "scene/slope.h"
 
 #include <float.h>
 #include <gsl/gsl_interp.h>

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "base/real.h"
-#include "ceduo/slope.h"
+#include "ceduo/scene.h"
 
 /* A slope prepared for many rocks. Vertices and segments are stored in pairs, as lanes look them up; a segment is a cache
  * line. */

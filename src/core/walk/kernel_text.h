@@ -35,7 +35,7 @@ FORCE_INLINE void step_lanes(struct kernel_params params, struct lanes *k, bool 
         pass_marks_scalar(k, (size_t)__builtin_ctz(pass));
     for (; leave; leave &= leave - 1) {
         size_t i = (size_t)__builtin_ctz(leave);
-        end_lane(k, i, k->to_x[i], k->to_z[i], CEDUO_LEFT_SLOPE);
+        end_lane(k, i, k->to_x[i], k->to_z[i], CEDUO_END_LEFT_SLOPE);
     }
     for (; scalar; scalar &= scalar - 1)
         land_scalar(k, (size_t)__builtin_ctz(scalar));
@@ -141,7 +141,7 @@ static void walk_job(const struct lanes_job *job)
     k.has_chunks = k.g->top > 0;
     k.ground_varies = k.g->rn_varies || k.g->rt_varies || (k.g->theta_varies && !k.g->roughness_index);
     k.theta_varies = k.g->theta_varies;
-    k.against = k.g->facets == CEDUO_AGAINST;
+    k.against = k.g->facets == CEDUO_FACETS_AGAINST;
     k.scale_rn = w->scale_rn;
     k.friction_bound = w->friction_bound;
     k.tallest = w->stems ? w->stems->forest->tallest + 1e-6 : 0; /* margin above rounding of heights */

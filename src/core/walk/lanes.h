@@ -2,7 +2,6 @@
 #ifndef CEDUO_LANES_H
 #define CEDUO_LANES_H
 
-#include "ceduo/run.h"
 #include "walk.h"
 
 /* The walk of walk.h for several rocks at once, one per lane of wide registers, with the same bits for every rock. Rare events

@@ -263,7 +263,7 @@ FORCE_INLINE unsigned pass_stems(struct kernel_params params, struct lanes *k)
     k->after_hit = (p.hit | unknown) & ~p.stopped & ~p.aborted & ~k->waiting;
     for (unsigned done = p.stopped | p.aborted; done; done &= done - 1) {
         size_t i = (size_t)__builtin_ctz(done);
-        end_lane(k, i, k->x[i], k->z[i], p.stopped >> i & 1 ? CEDUO_STOPPED_BY_STEMS : CEDUO_UNFINISHED);
+        end_lane(k, i, k->x[i], k->z[i], p.stopped >> i & 1 ? CEDUO_END_STOPPED_BY_STEMS : CEDUO_END_UNFINISHED);
     }
     return scalar;
 }

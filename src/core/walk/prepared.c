@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "prepared.h"
+#include "scene/derived.h"
+#include "scene/rock.h"
+#include "scene/slope.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -140,5 +143,5 @@ void ceduo_prepared_release(struct prepared_scene *p)
     ceduo_forest_release(&p->forest);
     free(p->marks.items);
     ceduo_ground_release(&p->ground);
-    ceduo_slope_simplified_free(&p->simplified);
+    ceduo_slope_simplified_release(&p->simplified);
 }

@@ -2,7 +2,6 @@
 #ifndef CEDUO_PREPARED_H
 #define CEDUO_PREPARED_H
 
-#include "ceduo/scene.h"
 #include "core/forest/forest.h"
 #include "ground.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rocks simulated one by one (trajectory.c), with all segments of their trajectories. Within a segment all integrals have
  * closed forms: a flight is a parabola over straight ground, and along a roll the squared speed is linear in x. */
-#include "ceduo/record.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +8,9 @@
 #include "base/oom.h"
 #include "base/parallel.h"
 #include "base/real.h"
+#include "ceduo/simulate.h"
 #include "scene/schema.h"
+#include "scene/slope.h"
 
 /* Integrals along a stretch, divided by its length at the end. */
 struct stretch_sums {
@@ -168,7 +169,7 @@ static enum ceduo_status record_rock(struct recorder *r, struct ceduo_tracer *fo
         return r->no_memory ? CEDUO_NO_MEMORY : status;
     r->rock->mass = trajectory.rock.mass;
     r->rock->moment = trajectory.rock.moment;
-    r->rock->stop_x = trajectory.end == CEDUO_AT_REST || trajectory.end == CEDUO_STOPPED_BY_STEMS ? trajectory.x : NAN;
+    r->rock->stop_x = trajectory.end == CEDUO_END_AT_REST || trajectory.end == CEDUO_END_STOPPED_BY_STEMS ? trajectory.x : NAN;
     for (size_t i = 0; i < def->stretches_count; i++) {
         const struct stretch_sums *a = &r->sums[i]; /* rocks do not spin by the lumped law */
         bool spins = def->scene->simulation.law != CEDUO_LAW_LUMPED;
@@ -185,14 +186,14 @@ static enum ceduo_status record_rock(struct recorder *r, struct ceduo_tracer *fo
 
 struct ceduo_record_def ceduo_record_def_default(const struct ceduo_scene *scene)
 {
-    return (struct ceduo_record_def){.scene = scene, .rocks = scene->simulation.rocks};
+    return (struct ceduo_record_def){.size = sizeof(struct ceduo_record_def), .scene = scene, .rocks = scene->simulation.rocks};
 }
 
 enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_record *record)
 {
     struct recorder r = {.def = def, .record = record};
     *record = (struct ceduo_record){0};
-    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
+    enum ceduo_status status = def->size == sizeof *def ? ceduo_scene_check(def->scene, NULL) : CEDUO_BAD_ARGUMENT;
     bool good = def->rocks <= CEDUO_ROCKS_MAX && (def->stretches || def->stretches_count == 0);
     if (status == CEDUO_OK && !(good && ceduo_option_has_lists(def->option)))
         status = CEDUO_BAD_ARGUMENT;

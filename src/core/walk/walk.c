@@ -3,6 +3,7 @@
  * rests, leaves the slope, is stopped by a stem, or exceeds a limit. The walk of lanes (kernel_text.h) does the same for many
  * rocks and passes rare events to this one. */
 #include "walk.h"
+#include "scene/derived.h"
 
 #include "rolling.h"
 
@@ -130,13 +131,13 @@ FORCE_INLINE bool come_down(struct walker *w, struct flight *flight, struct land
 {
     if ((!landing_known || stem_before(w, l->x)) && fly_past_stems(w, flight, l, landing_known)) {
         w->flight = *flight;
-        *end = w->aborted ? CEDUO_UNFINISHED : CEDUO_STOPPED_BY_STEMS;
+        *end = w->aborted ? CEDUO_END_UNFINISHED : CEDUO_END_STOPPED_BY_STEMS;
         return false;
     }
     fly(w, flight, l);
     if (l->off_slope) {
         w->flight = *flight;
-        *end = CEDUO_LEFT_SLOPE;
+        *end = CEDUO_END_LEFT_SLOPE;
         return false;
     }
     return true;
@@ -157,10 +158,10 @@ bool ceduo_walk_roll(struct walker *w, struct rock_state *c, const struct rollin
         w->contacts++;
         outcome = roll_on(w, 0, &c->l);
     }
-    *end = outcome == STANDS && !stops         ? CEDUO_AT_REST
-           : outcome == ROLLED_OUT             ? CEDUO_LEFT_SLOPE
-           : outcome == STOPPED && !w->aborted ? CEDUO_STOPPED_BY_STEMS
-                                               : CEDUO_UNFINISHED;
+    *end = outcome == STANDS && !stops         ? CEDUO_END_AT_REST
+           : outcome == ROLLED_OUT             ? CEDUO_END_LEFT_SLOPE
+           : outcome == STOPPED && !w->aborted ? CEDUO_END_STOPPED_BY_STEMS
+                                               : CEDUO_END_UNFINISHED;
     c->flight = w->flight;
     c->along = w->along;
     c->off = 0;
@@ -202,7 +203,7 @@ FORCE_INLINE enum ceduo_end walk_over(struct walker *w, struct rock_state c, con
         }
         if (w->contacts >= w->pause && must_stop(w)) {
             w->flight = flight;
-            return CEDUO_UNFINISHED;
+            return CEDUO_END_UNFINISHED;
         }
         const struct rolling before = {.along = v.along, .spin = w->spin};
         strike_ground(w, &flight, &v, &facet, law);
@@ -274,7 +275,7 @@ bool ceduo_walk_land(struct walker *w, struct rock_state *c, enum ceduo_end *end
     }
     if (w->contacts >= w->pause && must_stop(w)) {
         w->flight = c->flight;
-        *end = CEDUO_UNFINISHED;
+        *end = CEDUO_END_UNFINISHED;
         return false;
     }
     return true;

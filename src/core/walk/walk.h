@@ -8,7 +8,6 @@
 
 #include "base/elementary.h"
 #include "base/random.h"
-#include "ceduo/trajectory.h"
 #include "core/forest/stems.h"
 #include "flight.h"
 #include "prepared.h"
@@ -64,7 +63,7 @@ struct walker {
     void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
     const struct ceduo_trajectory_callbacks *callbacks; /* may be NULL */
     void *context;                                      /* of cross */
-    bool arrivals_only;                                 /* stop soon after the last mark, with CEDUO_UNFINISHED */
+    bool arrivals_only;                                 /* stop soon after the last mark, with CEDUO_END_UNFINISHED */
     const atomic_bool *cancel;                          /* checked regularly on long trajectories; may be NULL */
     bool cancelled;                                     /* cancelled or out of memory: the trajectory is incomplete */
     bool aborted;                                       /* among stems: cancelled, or too many stems */

@@ -2,23 +2,10 @@
 #ifndef CEDUO_ALTERNATIVE_LAW_H
 #define CEDUO_ALTERNATIVE_LAW_H
 
-#include "assess.h"
+#include "ceduo/simulate.h"
 
 /* The same rocks under the other energy law of stems. Two published laws disagree about thin stems (Brauner et al. 2005; Dorren
  * et al. 2006). Neither has been validated there, so results are shown for both. */
-
-/* Few rocks show the effect of the other law: the first ones of the scene, in whole batches. */
-#define CEDUO_ALT_LAW_ROCKS ((uint64_t)10 * CEDUO_BATCH_ROCKS)
-
-/* Results of an option at one control under the other law. */
-struct ceduo_alternative_energy {
-    bool known;
-    bool stems; /* the option has stems; otherwise no law has an effect */
-    enum ceduo_energy_model model;
-    struct ceduo_arrivals arrivals;   /* valid if known; of at most CEDUO_ALT_LAW_ROCKS rocks */
-    enum ceduo_judgement judgement;   /* of the control by this law; CEDUO_DEPENDS: the two laws contradict */
-    struct ceduo_difference to_first; /* to the first option under its other law; NaN: unknown */
-};
 
 /* Return the other law of an option: brauner if all its stems follow dorren, otherwise dorren. */
 enum ceduo_energy_model ceduo_alternative_law(const struct ceduo_option *option);

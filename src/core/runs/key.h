@@ -2,9 +2,7 @@
 #ifndef CEDUO_KEY_H
 #define CEDUO_KEY_H
 
-#include <stdint.h>
-
-#include "scene.h"
+#include "ceduo/scene.h"
 
 /* Hashes of all inputs of a run. If they are equal, the same rocks have the same trajectories. */
 

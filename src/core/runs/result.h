@@ -2,19 +2,7 @@
 #ifndef CEDUO_RESULT_H
 #define CEDUO_RESULT_H
 
-#include "alternative_law.h"
-#include "assess.h"
-#include "pool.h"
-
-/* Results of a run, one entry per control. */
-struct ceduo_simulated {
-    uint64_t rocks; /* 0: no result */
-    size_t controls;
-    struct ceduo_arrivals *arrivals;
-    struct ceduo_hazard_curve *curves;   /* `curve` of the arrivals points here; NULL without blocks */
-    struct ceduo_fence_arrivals *fences; /* likewise `fence`; NULL without fences and design values */
-    struct ceduo_ends ends;
-};
+#include "ceduo/simulate.h"
 
 /* Read a run of a scene, which may differ from that of the run in fences, design values and return periods. `bare`: results
  * without forest; NULL: the run is without forest. Return CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
@@ -24,27 +12,7 @@ enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, const struct
 void ceduo_simulated_set_no_contacts(struct ceduo_simulated *simulated);
 /* Set the hazard relative to `bare`. */
 void ceduo_simulated_compare(struct ceduo_simulated *simulated, const struct ceduo_simulated *bare);
-void ceduo_simulated_free(struct ceduo_simulated *simulated);
-
-/* Results of one option. */
-struct ceduo_option_result {
-    struct ceduo_stand_result *stands;             /* one per belt */
-    struct ceduo_index *controls;                  /* one per control, in the scene's order */
-    struct ceduo_simulated wooded;                 /* through its forest; with the contact model index: without forest */
-    struct ceduo_difference *differences;          /* of `wooded` to the first option; all NaN if unknown */
-    struct ceduo_alternative_energy *alternatives; /* one per control: the same rocks under the other energy law */
-};
-
-/* All results of a scene. */
-struct ceduo_result {
-    const struct ceduo_scene *scene;
-    struct ceduo_rock rock;      /* of the means */
-    bool wooded;                 /* rocks were simulated through the forests; false: contact model index */
-    struct ceduo_simulated bare; /* without forest, the same for all options */
-    size_t last_control;         /* the one farthest along x */
-    size_t options_count;
-    struct ceduo_option_result *options;
-};
+void ceduo_simulated_release(struct ceduo_simulated *simulated);
 
 /* Read the runs of a pool and assess every option. Results of runs missing from the pool are NaN. The scene must outlive the
  * result. Return CEDUO_NO_MEMORY or CEDUO_OK. */
@@ -64,14 +32,8 @@ void ceduo_result_free(struct ceduo_result *result);
 void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_simulated *bare,
                        const struct ceduo_simulated *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls);
 
-/* Return the arrivals at a control through the forest of an option. NULL with the contact model index, or if not known yet. */
-const struct ceduo_arrivals *ceduo_result_wooded(const struct ceduo_result *result, size_t option, size_t control);
-
 /* Return the number of rocks in each run, and the maximum number of unfinished rocks in a run. */
 uint64_t ceduo_result_rocks(const struct ceduo_result *result);
 uint64_t ceduo_result_unfinished(const struct ceduo_result *result);
-
-/* Return the index of an option at the last control. */
-const struct ceduo_index *ceduo_result_last_index(const struct ceduo_result *result, size_t option);
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef CEDUO_VARIANTS_H
 #define CEDUO_VARIANTS_H
 
-#include "pool.h"
+#include "ceduo/simulate.h"
 
 /* Simulates variants of a scene: years, other sizes of the rock, plausible scenes. Each is made, simulated and read, one after
  * the other. A caller with many variants of few rocks runs several lists at once. */

@@ -2,18 +2,10 @@
 #ifndef CEDUO_NASLUND_H
 #define CEDUO_NASLUND_H
 
-#include <stddef.h>
-
-#include "status.h"
+#include "ceduo/survey.h"
 
 #define CEDUO_BREAST_HEIGHT 1.3 /* m */
 #define CEDUO_NASLUND_MIN   5   /* heights that a fit requires */
-
-/* Näslund's curve of height over diameter: h = 1.3 + d2/(a + b d)2, h in m, d in cm. */
-struct ceduo_naslund {
-    double a, b;
-    double rmse; /* m */
-};
 
 /* Fit the curve to n pairs of dbh (m) and height (m, above 1.3) by least squares of the heights. Return CEDUO_OK,
  * CEDUO_NO_MEMORY, or CEDUO_NO_FIT if no rising, finite curve fits: too few pairs, equal dbh, falling heights. */

@@ -2,22 +2,7 @@
 #ifndef CEDUO_BLOCKS_H
 #define CEDUO_BLOCKS_H
 
-#include "flag.h"
-#include "run.h"
-
-/* A scene with blocks of other sizes. A forest that stops small blocks need not stop large ones. */
-struct ceduo_size_result {
-    double volume;                  /* m3 */
-    double mass, diameter;          /* kg, m: of the mean rock */
-    double adc;                     /* m, by the scene's rule: worst belt before the control; infinite without a belt */
-    double contacts;                /* with stems up to the control, by the same rule (Eq. 2 of Ciabocco et al. 2009) */
-    struct ceduo_arrivals arrivals; /* through the forest; released == 0: not simulated, or skipped as too expensive */
-    bool own;                       /* the scene's own block */
-};
-
-/* Number of sizes: 0.05, 0.2, 1, 5 m3, and the scene's own. They are the limits of the rock classes of the Swiss guideline NaiS
- * (Frehner et al. 2005), with 1 m3 added. */
-#define CEDUO_SIZES 5
+#include "ceduo/simulate.h"
 
 /* Return the rock scaled by `factor` in every dimension, with the same shape and density. Spreads are scaled with the sizes. */
 struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double factor);

@@ -2,56 +2,13 @@
 #ifndef CEDUO_FENCE_H
 #define CEDUO_FENCE_H
 
-#include <stddef.h>
+#include "ceduo/simulate.h"
 
-#include "statistics.h"
-
-/* Rocks at a net fence (struct ceduo_fence): the shares that defeat it, the fence that would be enough, and design values. */
-
-/* Classes of ETAG 027 by the energy (MEL) of the tested kit, J. The last has no upper limit: infinite. */
-#define CEDUO_FENCE_CLASSES 9
+/* Energies of the classes, J; the last is infinite. */
 extern const double ceduo_fence_class_energy[CEDUO_FENCE_CLASSES];
 
 /* Return the smallest class that holds an energy; -1 for NaN. */
 int ceduo_fence_class(double energy);
-
-/* Heights of a planned fence: 2, 3 … 8 m. */
-#define CEDUO_FENCE_HEIGHTS 7
-#define CEDUO_FENCE_LOWEST  2 /* m */
-
-/* Shares of the released that would defeat a fence, by its height and class. */
-struct ceduo_fence_grid {
-    struct ceduo_estimate defeated[CEDUO_FENCE_HEIGHTS][CEDUO_FENCE_CLASSES];
-    double energy[CEDUO_FENCE_HEIGHTS]; /* J: largest energy of a rock that does not pass above; 0: none */
-};
-
-/* The smallest class of a height that is enough. */
-struct ceduo_fence_choice {
-    unsigned height; /* m */
-    int class_index; /* CEDUO_FENCE_CLASSES: no class is enough */
-    double energy;   /* J: energy of the class, or for the last class the largest energy of a rock; NaN: no class is enough */
-    double defeated; /* share of the released rocks; for the last class if no class is enough */
-    bool decided;    /* the sampling error does not change the class */
-};
-
-/* 95th percentiles; 0 if fewer rocks arrive. */
-struct ceduo_fence_load {
-    double speed, energy; /* m/s; J, of translation */
-    double top, middle;   /* m, perpendicular to the ground */
-};
-
-/* Rocks at a fence. Shares are of the released. */
-struct ceduo_fence_arrivals {
-    struct ceduo_estimate above, through, both, defeated; /* NaN: no fence, and all members but the loads are invalid */
-    struct ceduo_estimate worn;           /* held with more than a third of its energy: the service energy level (SEL) */
-    double by_class[CEDUO_FENCE_CLASSES]; /* defeated fences of this height */
-    struct ceduo_fence_grid grid;
-    struct ceduo_fence_choice enough[CEDUO_FENCE_HEIGHTS];
-    double per_year, in_life; /* rocks that defeat the fence: per year; probability in its life; NaN: no blocks */
-    /* `arriving`: rocks that arrive. `system`: rocks that arrive without forest; a rock that the forest stops counts as 0. NaN:
-     * design values are not requested, or no rock arrives. */
-    struct ceduo_fence_load arriving, system;
-};
 
 /* Return arrivals without values. */
 struct ceduo_fence_arrivals ceduo_fence_none(void);

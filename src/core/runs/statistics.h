@@ -2,18 +2,9 @@
 #ifndef CEDUO_STATISTICS_H
 #define CEDUO_STATISTICS_H
 
-#include <math.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "ceduo/simulate.h"
 
 #define CEDUO_Z95 1.959963984540054 /* 97.5 % quantile of the normal distribution */
-
-/* Count, mean and sum of squares about the mean, added one by one (Welford 1962) and merged (Chan et al. 1979). */
-struct ceduo_moments {
-    uint64_t n;
-    double mean, m2, max;
-};
 
 static inline void ceduo_moments_add(struct ceduo_moments *m, double value)
 {
@@ -28,14 +19,6 @@ void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments 
 /* Return the standard deviation, or the standard error of the mean; NaN for fewer than two values. */
 double ceduo_moments_sd(const struct ceduo_moments *m);
 double ceduo_moments_se(const struct ceduo_moments *m);
-
-/* A value with its sampling error. */
-struct ceduo_estimate {
-    double mean;   /* NaN: unknown */
-    double se;     /* standard error; NaN: unknown */
-    double lo, hi; /* 95 % interval; NaN: unknown */
-};
-#define CEDUO_NO_ESTIMATE ((struct ceduo_estimate){NAN, NAN, NAN, NAN})
 
 /* Return the half-width of the 95 % interval of a mean of n values, from its standard error in any unit. Uses Student's
  * distribution with n - 1 degrees of freedom. NaN if n < CEDUO_INTERVAL_MIN_N. */
@@ -74,16 +57,17 @@ double ceduo_quantile(const double *sorted, size_t n, double p);
 /* Set the ranks of the 95 % interval of the true quantile (binomial distribution); 0 or n + 1 if no value bounds it. */
 void ceduo_quantile_interval(size_t n, double p, size_t *lo, size_t *hi);
 
-/* Figures of a distribution; NaN if one does not exist. */
-struct ceduo_distribution {
-    double mean, se, sd, p50, p95, p95_lo, p95_hi, p99, max;
-    double p50_lo, p50_hi, p99_lo, p99_hi;
-};
-
 /* Compute a distribution from all values, which are reordered, and their moments. */
 struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m);
 
 /* Return a distribution without values: all NaN. */
 struct ceduo_distribution ceduo_distribution_none(void);
+
+/* One percentile of a distribution. */
+#define PERCENTILES 3
+struct percentile {
+    double p, *value, *lo, *hi;
+};
+struct percentile ceduo_percentile_compute(struct ceduo_distribution *distribution, size_t k);
 
 #endif
