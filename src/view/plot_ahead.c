@@ -7,6 +7,7 @@
 
 #include "base/language.h"
 #include "base/oom.h"
+#include "core/runs/run.h"
 #include "plot.h"
 
 #define WIDTH_AHEAD  30 /* min. columns and lines */
