@@ -10,8 +10,9 @@
 #include "plot.h"
 #include "report.h"
 
-#define HEIGHT_MIN 18 /* min lines for figures that other views show, too … */
-#define HEIGHT_ALL 24 /* … and for all figures */
+#define HEIGHT_MIN    18 /* min lines for figures that other views show, too … */
+#define HEIGHT_ALL    24 /* … and for all figures */
+#define HEIGHT_ORDERS 30 /* min lines for the order of all options */
 
 /* ---- rock ---- */
 
@@ -101,7 +102,8 @@ void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pa
         return;
     ceduo_uncertainty_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, ceduo_uncertainty_main(r, pane->option), 1);
     for (size_t i = 0; i < r->answer->orders_count; i++)
-        if (r->answer->orders[i].better == pane->option || r->answer->orders[i].than == pane->option)
+        if (pane->height >= HEIGHT_ORDERS || r->answer->orders[i].better == pane->option ||
+            r->answer->orders[i].than == pane->option)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
     for (size_t i = 0; i < 3 && !r->rotation_mean; i++)
         ceduo_uncertainty_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
