@@ -222,7 +222,7 @@ $(SCRIPTS_COMPLETION): $(COMPLETION)
 install: all $(SCRIPTS_COMPLETION)
 install uninstall:
 	@$(foreach v,BUILD VERSION SONAME LANGUAGES PAGES_IT LIBRARY_LIBS DESTDIR BINDIR DATADIR MANDIR \
-	    LOCALEDIR LIBDIR INCLUDEDIR BASHDIR ZSHDIR,$v=$(call quoted,$($v))) src/packaging/install $@
+	    LOCALEDIR LIBDIR INCLUDEDIR BASHDIR ZSHDIR,$v=$(call quoted,$($v))) src/packaging/install.sh $@
 
 dist:
 	src/packaging/release dist $(VERSION)

@@ -50,6 +50,21 @@ ${CC:-gcc} -std=c17 use.c $(pkg-config --cflags --libs ceduo) -o use && ./use ||
 readelf -d use | grep -q 'NEEDED.*\[libceduo.so.1\]' || fail "the name of the shared library"
 ${CC:-gcc} -std=c17 -static use.c $(pkg-config --static --cflags --libs ceduo) -o use && ./use || fail "the static library"
 
+if command -v g++ >/dev/null; then
+    g++ -std=c++17 -x c++ use.c $(pkg-config --cflags --libs ceduo) -o use && ./use || fail "a program in C++"
+fi
+export PYTHONPATH=/usr/share/ceduo/examples PYTHONDONTWRITEBYTECODE=1
+/usr/bin/python3 -c 'import ceduo
+with ceduo.Scene("paper-site") as scene:
+    scene.simulate(100)
+    assert len(scene.samples("energy_kJ")) == 100' || fail "the module for Python"
+if command -v R >/dev/null; then
+    cp /usr/share/ceduo/examples/ceduo.R /usr/share/ceduo/examples/ceduo_r.c .
+    PKG_CPPFLAGS=$(pkg-config --cflags ceduo) PKG_LIBS=$(pkg-config --libs ceduo) R CMD SHLIB ceduo_r.c >R.log 2>&1 || fail "$(cat R.log)"
+    Rscript -e 'source("ceduo.R"); s <- ceduo_open("paper-site"); ceduo_simulate(s, 100)
+        stopifnot(length(ceduo_samples(s, "energy_kJ")) == 100)' || fail "R"
+fi
+
 dpkg --purge ceduo libceduo-dev libceduo1 >/dev/null
 while read -r path; do [ ! -e "$path" ] || fail "left behind: $path"; done <files
 [ ! -e /usr/share/ceduo ] || fail "left behind: /usr/share/ceduo"

@@ -231,6 +231,6 @@ $(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/benc
 
 bench: all $(BENCH)
 	$(call need,python3-numpy)
-	@CC="$(CC)" ONLY="$(ONLY)" tests/bench/results.sh $(BENCH) tests/bench/numpy_loop.py tests/bench/bench_valley.py \
+	@CC="$(CC)" ONLY="$(ONLY)" tests/bench/results.sh $(BENCH) tests/bench/numpy_loop.py tests/bench/bench_valley.py tests/bench/bench_handle.py \
 	    tests/bench/bench_ground.py
 	@$(MAKE) --no-print-directory tables

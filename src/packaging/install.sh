@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the files that make built, or removes them: src/packaging/install install|uninstall
+# Installs the files that make built, or removes them: src/packaging/install.sh install|uninstall
 # The variables are those of the Makefile, which calls this. Files are removed by name, because other programs may have put
-# theirs into the same folders.
-set -e
+# theirs into the same folders. debhelper would run a file named install with other arguments.
+set -eu
+case ${1-} in install | uninstall) ;; *) echo "usage: $0 install|uninstall" >&2 && exit 2 ;; esac
 installs() { [ "$action" = install ]; }
 action=$1
 
