@@ -337,8 +337,8 @@ static const struct option_row rows[] = {
      .help = N_("fit this value to the observations, between LO and HI; may be repeated; -o FILE.yaml writes the first scene "
                 "with the fitted values")},
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, M_CHECK | M_FIND | M_FIT | M_PAGE | M_SURVEY,
-     .help =
-         N_("print a picture: profile, energy, height, histogram, rotation, stand, compare, ahead, tradeoff, uncertainty or hazard")},
+     .help = N_("print a picture: profile, energy, height, histogram, rotation, stand, compare, ahead, tradeoff, uncertainty "
+                "or hazard")},
     {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_PLOT,
      .help = N_("size of a picture in columns and lines (80x24)")},
     {"charset", 0, "braille|block|ascii", set_word, MEMBER(charset), MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_PICTURE,

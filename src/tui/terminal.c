@@ -25,8 +25,8 @@
 #define BRIGHT 8 /* difference between a colour and its bright form */
 
 /* Style of each role, in the 16 colours of the terminal. Colour is never the only sign: words and symbols repeat the meaning.
- * GOOD and BAD are blue and red or orange, which people with any kind of colour vision tell apart. The pairs have the contrast
- * of WCAG 2.2 in the usual palettes (tests/tui/test_colours.py). */
+ * GOOD and BAD are blue and red or orange: people with any kind of colour vision tell them apart. In the usual palettes the
+ * pairs have the contrast that WCAG 2.2 requires (tests/tui/test_colours.py). */
 static const struct role_style {
     short dark, light; /* curses colours of each theme, -1: default of the terminal */
     attr_t attributes;

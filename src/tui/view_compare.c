@@ -20,7 +20,7 @@ enum { PANE_TABLE, PANE_AHEAD, PANE_COMPARE, PANE_TRADEOFF, PANES };
 #define AHEAD_MIN        12  /* min. lines of the curves below the text */
 #define HEIGHT_BOTH      28  /* lines for table, text and curves */
 #define TRADEOFF_MIN     11  /* min. lines of the picture of protection against yield */
-#define SIDE_BY_SIDE_MIN 128 /* columns for pictures beside table and text */
+#define SIDE_BY_SIDE_MIN 128 /* columns for pictures next to table and text */
 #define TABLE_WIDTH      84
 
 static void draw_compare_picture(struct app *app, enum ceduo_plot plot, struct ceduo_area area)
@@ -110,12 +110,12 @@ static int curve_lines(struct app *app, struct ceduo_area area)
     return rest > scrolled ? rest : scrolled;
 }
 
-/* Draw table and text, with the curves of the years below them, and the other pictures beside them, if there is space. */
+/* Draw table and text, with the curves of the years below them, and the other pictures next to them, if there is space. */
 static void draw_all(struct app *app, struct ceduo_area area)
 {
-    bool beside = area.width >= SIDE_BY_SIDE_MIN && app->live.verdict.n > 1;
+    bool wide = area.width >= SIDE_BY_SIDE_MIN && app->live.verdict.n > 1;
     struct ceduo_area text = area;
-    if (beside)
+    if (wide)
         text.width = TABLE_WIDTH;
     if (area.height >= HEIGHT_BOTH) {
         int lines = curve_lines(app, text);
@@ -123,7 +123,7 @@ static void draw_all(struct app *app, struct ceduo_area area)
         cut_bottom(&area, 1); /* position of the text */
         text.height = area.height;
     }
-    if (beside) {
+    if (wide) {
         int rows = (int)app->live.verdict.n + 2, rest = area.height - rows - 1;
         area.left += TABLE_WIDTH + 2;
         area.width -= TABLE_WIDTH + 2;

@@ -51,20 +51,20 @@ static void build_rock(struct app *app, struct form *form)
 }
 
 #define WIDE       70 /* columns for a remark */
-#define BESIDE     80 /* columns for the slope beside the form */
+#define SLOPE_MIN  80 /* columns for the slope next to the form */
 #define FORM_WIDTH 46
 
-/* Draw the slope with the energies below it beside the form, which gets the rest of the area. */
+/* Draw the slope with the energies below it, next to the form, which gets the rest of the area. */
 static void draw_trajectories(struct app *app, struct ceduo_area *area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_span span = {0};
-    struct ceduo_area beside = {area->left + FORM_WIDTH + 2, area->top, area->width - FORM_WIDTH - 2, area->height};
+    struct ceduo_area picture_area = {area->left + FORM_WIDTH + 2, area->top, area->width - FORM_WIDTH - 2, area->height};
     area->width = FORM_WIDTH;
     picture.span = &span;
     picture.bands = true;
-    ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, cut_top(&beside, beside.height * 3 / 5), &picture);
-    ceduo_app_draw_plot(app, CEDUO_PLOT_ENERGY, beside, &picture);
+    ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, cut_top(&picture_area, picture_area.height * 3 / 5), &picture);
+    ceduo_app_draw_plot(app, CEDUO_PLOT_ENERGY, picture_area, &picture);
 }
 
 static void draw_rock(struct app *app, struct ceduo_area area)
@@ -87,7 +87,7 @@ static void draw_rock(struct app *app, struct ceduo_area area)
     int lines = ceduo_app_count_lines(app, ceduo_text_string(&text), area.width);
     ceduo_app_draw_text(app, cut_bottom(&area, lines), CEDUO_ROLE_DIM, &text);
     cut_bottom(&area, 1);
-    if (area.width >= BESIDE)
+    if (area.width >= SLOPE_MIN)
         draw_trajectories(app, &area);
     ceduo_app_draw_form(app, area);
 }

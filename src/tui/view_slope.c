@@ -307,21 +307,21 @@ static void add_slope_hits(struct app *app, struct ceduo_area area)
     ceduo_app_add_hit(app, (struct hit){.area = area, .key = K_ENTER});
 }
 
-/* Layout of the view: the picture of the slope with strips below it on the same axis, and the form below or beside them. */
+/* Layout of the view: the picture of the slope with strips below it on the same axis, and the form below or next to them. */
 struct layout {
     struct ceduo_area form; /* no height: not shown */
     int slope;              /* lines of the slope */
     int strips, strip;      /* number of strips; lines of each */
-    int columns;            /* of the pictures */
+    int columns;            /* columns of the pictures */
 };
 
 #define AXES             4  /* columns of the left axis, and lines of names, of the bottom axis and of belts */
 #define NAMES            14 /* columns for the names of curves, on the right of strips */
 #define SHORT_NAMES      6  /* the same by the index */
-#define FORM_COLUMNS_MIN 40 /* columns of the form beside the pictures */
-#define BESIDE_LINES     24 /* min. lines for the form beside the pictures */
+#define FORM_COLUMNS_MIN 40 /* columns of the form next to the pictures */
+#define BESIDE_LINES     24 /* min. lines for the form next to the pictures */
 #define BAND_LINES       7  /* min. lines of a strip with a band */
-#define STRIP_SHARE      5  /* share of the lines for each strip beside the form */
+#define STRIP_SHARE      5  /* share of the lines for each strip next to the form */
 
 /* Return the dots of a metre in a picture of the slope at true scale. */
 static double slope_scale(const struct app *app, int columns, int lines)
@@ -356,7 +356,7 @@ static struct layout stack_layout(struct ceduo_area area, int pane, int form_lin
     return l;
 }
 
-/* Put the form beside the pictures. Along the slope, leave the strips out if the slope then is larger. */
+/* Put the form next to the pictures. Along the slope, leave the strips out if the slope then is larger. */
 static struct layout place_beside(const struct app *app, struct ceduo_area area, int pane)
 {
     struct layout l = {.strips = 2, .strip = area.height / STRIP_SHARE, .columns = area.width - FORM_COLUMNS_MIN - 2};
@@ -374,10 +374,10 @@ static struct layout choose_layout(struct app *app, struct ceduo_area area)
 {
     int pane = ceduo_app_state(app)->pane, wide = area.width - FORM_COLUMNS_MIN - 2;
     struct layout below = stack_layout(area, PANE_FORM, 0);
-    bool beside = wide >= FORM_COLUMNS_MIN && area.height >= BESIDE_LINES &&
-                  slope_scale(app, wide, area.height - 2 * (area.height / STRIP_SHARE) - 2) >
-                      slope_scale(app, below.columns, below.slope);
-    return beside ? place_beside(app, area, pane) : stack_layout(area, pane, count_form_lines(ceduo_app_form(app)));
+    bool wide_enough = wide >= FORM_COLUMNS_MIN && area.height >= BESIDE_LINES &&
+                       slope_scale(app, wide, area.height - 2 * (area.height / STRIP_SHARE) - 2) >
+                           slope_scale(app, below.columns, below.slope);
+    return wide_enough ? place_beside(app, area, pane) : stack_layout(area, pane, count_form_lines(ceduo_app_form(app)));
 }
 
 /* Draw the pictures and the form. */

@@ -250,41 +250,33 @@ struct parts {
     size_t n, a, a_end, b, b_end;
 };
 
-/* Return the columns of the parts, with marks for what is left out. */
+/* Return the columns of the parts, with a mark for each gap. */
 static size_t parts_width(const struct parts *k)
 {
     return (k->a > 0) + ceduo_utf8_char_width(k->name + k->a, k->a_end - k->a) + (k->a_end < k->b) +
            ceduo_utf8_char_width(k->name + k->b, k->b_end - k->b) + (k->b_end < k->n);
 }
 
-/* Keep the longer parts if they fit. */
-static bool keep_parts(struct parts *k, struct parts longer, size_t columns)
-{
-    bool fits = parts_width(&longer) <= columns;
-    *k = fits ? longer : *k;
-    return fits;
-}
-
-/* Make the parts longer by a character: each to the right, otherwise to the left. Return false if nothing fits. */
+/* Make the parts longer by a character: both to the right, otherwise one to the front. Return false if nothing fits. */
 static bool grow_parts(struct parts *k, size_t columns)
 {
-    struct parts right = *k, end = *k, left = *k, start = *k;
     bool grown = false;
-    right.a_end += k->a_end < k->b ? ceduo_utf8_step(k->name + k->a_end) : 0;
-    if (k->a_end < k->b)
-        grown |= keep_parts(k, right, columns);
-    end.a_end = k->a_end;
-    end.b_end += k->b_end < k->n ? ceduo_utf8_step(k->name + k->b_end) : 0;
-    if (k->b_end < k->n)
-        grown |= keep_parts(k, end, columns);
-    left = start = *k;
-    if (!grown && k->a_end < k->b) {
-        left.b = (size_t)(ceduo_utf8_back(k->name, k->name + k->b) - k->name);
-        grown |= keep_parts(k, left, columns);
-    }
-    if (!grown && k->a > 0) {
-        start.a = (size_t)(ceduo_utf8_back(k->name, k->name + k->a) - k->name);
-        grown |= keep_parts(k, start, columns);
+    for (int end = 0; end < 4 && !(grown && end >= 2); end++) {
+        struct parts longer = *k;
+        if (end == 0 && k->a_end < k->b)
+            longer.a_end += ceduo_utf8_step(k->name + k->a_end);
+        else if (end == 1 && k->b_end < k->n)
+            longer.b_end += ceduo_utf8_step(k->name + k->b_end);
+        else if (end == 2 && k->a_end < k->b)
+            longer.b = (size_t)(ceduo_utf8_back(k->name, k->name + k->b) - k->name);
+        else if (end == 3 && k->a > 0)
+            longer.a = (size_t)(ceduo_utf8_back(k->name, k->name + k->a) - k->name);
+        else
+            continue;
+        if (parts_width(&longer) > columns)
+            continue;
+        *k = longer;
+        grown = true;
     }
     return grown;
 }
@@ -296,31 +288,31 @@ static bool is_word(char c)
     return c && !strchr(" ,", c);
 }
 
-/* Return where the word at `at` begins, or the next one if none is there. */
-static size_t word_start(const char *name, size_t at)
+/* Return the start of the word at this position, or of the next word. */
+static size_t word_start(const char *name, size_t position)
 {
-    size_t start = at;
+    size_t start = position;
     while (name[start] && !is_word(name[start]))
         start++;
-    while (is_word(name[at]) && start > 0 && is_word(name[start - 1]) && at - start < WORD_MAX)
+    while (is_word(name[position]) && start > 0 && is_word(name[start - 1]) && position - start < WORD_MAX)
         start--;
-    return start > 0 && is_word(name[start]) && is_word(name[start - 1]) ? at : start; /* within a long word */
+    return start > 0 && is_word(name[start]) && is_word(name[start - 1]) ? position : start; /* within a long word */
 }
 
-/* Append a name of a column, shortened where it is equal to other names, not where it differs: kept are the first place where
- * another name differs, and the last. Return false if no name differs. */
+/* Append a name of a column, without parts that other names have, too. It keeps the first and the last difference to another
+ * name. Return false if no name differs. */
 static bool print_distinct(struct printer *p, const struct ceduo_page_block *table, size_t column, const char *name,
                            size_t columns)
 {
     size_t first = SIZE_MAX, last = 0, n = strlen(name);
     const char *mark = p->plain ? "~" : "\xe2\x80\xa6";
     for (size_t i = table->columns_count + column; i < table->cells_count; i += table->columns_count) {
-        LOCAL_TEXT(other);
-        write_cell(p, &other, &table->cells[i], ANY_WIDTH);
+        LOCAL_TEXT(cell);
+        write_cell(p, &cell, &table->cells[i], ANY_WIDTH);
         size_t same = 0;
-        while (same < n && name[same] == ceduo_text_string(&other)[same])
+        while (same < n && name[same] == ceduo_text_string(&cell)[same])
             same++;
-        if (same == n && other.length == n)
+        if (same == n && cell.length == n)
             continue;
         while (same > 0 && ceduo_utf8_is_continuation(name[same]))
             same--;

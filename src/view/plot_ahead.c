@@ -17,7 +17,7 @@
 
 struct curve_ahead {
     size_t n;
-    double *x, *y; /* years from today, of 1000 */
+    double *x, *y; /* years from today; rocks of 1000 */
 };
 
 static enum ceduo_role get_curve_role(const struct ceduo_drawing *d, size_t option)

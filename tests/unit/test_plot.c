@@ -495,7 +495,7 @@ TEST_WOODED(pictures_can_be_drawn_on_another_surface)
             fail_msg("%s: outside: %d, words:\n%s", ceduo_plot_kinds[plot].name, page.outside, words);
         free(words);
         ceduo_cells_free(cells);
-        bool computed = plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && plot != CEDUO_PLOT_UNCERTAINTY &&
+        bool computed = !(ceduo_plot_kinds[plot].flags & CEDUO_PICTURE_YEARS) && plot != CEDUO_PLOT_UNCERTAINTY &&
                         plot != CEDUO_PLOT_HAZARD && plot != CEDUO_PLOT_FENCE;
         if (computed && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
             fail_msg("%s: %d lines, %d bars, %d axes", ceduo_plot_kinds[plot].name, page.lines, page.bars, page.axes);
@@ -539,6 +539,7 @@ TEST_BARE(titles_describe_the_picture)
         {"kept: year by year, up to path (40 m)", ""},
         {"kept: coppice, from above", ""},
         {"Options side by side, up to path (40 m)", ""},
+        {"Options over the years ahead, up to path (40 m)", ""},
         {"Protection and yield of the options, up to path (40 m)", ""},
         {"kept: how sure it is at path (40 m)", ""},
         {"How often, and with how much, at path (40 m)", ""},
