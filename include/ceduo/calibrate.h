@@ -138,6 +138,8 @@ struct ceduo_calibration {
 /* Fit. Return CEDUO_OK, CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or the status of ceduo_scene_check(). The caller
  * releases *answer in any case. */
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *answer);
+
+/* Release a fit. A second call has no effect. */
 void ceduo_calibration_release(struct ceduo_calibration *answer);
 
 #endif

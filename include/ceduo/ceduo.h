@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 #ifdef __cplusplus
-#include <atomic> /* of scene.h: a template cannot have C linkage */
+#include <atomic> /* scene.h needs it: a template cannot have C linkage */
 extern "C" {
 #endif
 

@@ -159,9 +159,11 @@ struct ceduo_slope {
 
 /* Simplify a profile to slope->tolerance (Douglas and Peucker 1973, perpendicular distance). Keeps both ends, the vertices
  * between different grounds, and `release_x`. `to` becomes a copy with its own x, z and segments. Its x is NULL if the profile
- * is already simplified: use `slope` then. Caller frees `to` by ceduo_slope_simplified_release() in either case. Return
+ * is already simplified: use `slope` then. The caller releases `to` in any case. Return
  * CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_slope_simplify(const struct ceduo_slope *slope, double release_x, struct ceduo_slope *to);
+
+/* Release a simplified profile. A second call has no effect. */
 void ceduo_slope_simplified_release(struct ceduo_slope *slope);
 
 /* Return a segment with the default friction; restitution and roughness are NaN. */
@@ -307,6 +309,7 @@ struct ceduo_species {
     double fracture_ratio;         /* from the list of Dorren and Berger; NaN: not listed */
 };
 
+/* Return all species: *count static rows. */
 const struct ceduo_species *ceduo_species_list(size_t *count);
 
 /* Return the index of a species by name, or -1. */

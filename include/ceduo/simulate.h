@@ -216,17 +216,24 @@ struct ceduo_trajectory {
 
 /* Simulate rock number `rock` of a scene through the forest of `option` (NULL: without forest), as a run does. `callbacks` may
  * be NULL. `crossings` (may be NULL) has one entry per control, in their order. Requires a scene that has passed
- * ceduo_scene_check(). Return CEDUO_NO_MEMORY, CEDUO_CANCELLED (`trajectory` ends early) or CEDUO_OK. */
+ * ceduo_scene_check(). Return CEDUO_OK, CEDUO_NO_MEMORY, CEDUO_CANCELLED (`trajectory` ends early) or CEDUO_BAD_ROCK. */
 enum ceduo_status ceduo_trajectory_run(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
                                        const struct ceduo_trajectory_callbacks *callbacks, struct ceduo_trajectory *trajectory,
                                        struct ceduo_crossing *crossings);
 
-/* Simulates many rocks, one at a time, of a scene that is prepared once. NULL without memory, or for a bad scene. */
+/* Simulates many rocks, one at a time, of a scene that is prepared once. */
 struct ceduo_tracer;
+
+/* Prepare a scene with the forest of `option` (NULL: without forest); both must outlive the tracer, which the caller frees.
+ * Requires a scene that has passed ceduo_scene_check(). Return NULL without memory, or for a rock without a size. */
 struct ceduo_tracer *ceduo_tracer_create(const struct ceduo_scene *scene, const struct ceduo_option *option);
+
+/* Simulate a rock, as ceduo_trajectory_run(). One thread at a time may use a tracer. */
 enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *tracer, uint64_t rock,
                                    const struct ceduo_trajectory_callbacks *callbacks, struct ceduo_trajectory *trajectory,
                                    struct ceduo_crossing *crossings);
+
+/* Free a tracer. `tracer` may be NULL. */
 void ceduo_tracer_free(struct ceduo_tracer *tracer);
 
 /* ---- runs ---- */
@@ -306,8 +313,8 @@ struct ceduo_ends {
  * the control. The place of its stop (m) is NaN if it does not stop; the weight is NULL if the scene has no blocks. */
 enum ceduo_sample { CEDUO_SAMPLE_SPEED, CEDUO_SAMPLE_HEIGHT, CEDUO_SAMPLE_ENERGY, CEDUO_SAMPLE_STOP, CEDUO_SAMPLE_WEIGHT };
 
-/* Return one value for each rock, or NULL if there is none. It is valid until the run is extended or freed. `control` is not
- * used for stops and weights. */
+/* Return one value for each rock; NULL: no such value, or no such control. The values are valid until the run is extended or
+ * freed. `control` is not used for stops and weights. */
 const double *ceduo_run_samples(const struct ceduo_run *run, size_t control, enum ceduo_sample quantity);
 
 /* ---- assessment ---- */
@@ -363,9 +370,7 @@ struct ceduo_index {
     struct ceduo_contact_check thick; /* for stems from CEDUO_THICK_DBH on, or from contact_dbh if that is larger */
 };
 
-/* Judge whether the share of the released that exceeds the accepted energy is at most the limit of the control. Uses one energy
- * law and the sampling error alone. `wooded` may be NULL (not simulated). Return CEDUO_JUDGEMENT_UNANSWERED without an accepted
- * energy, or if `wooded` is NULL and the slope without forest does not meet the limit. */
+/* Answer of a control. DEPENDS: the two energy laws contradict. CANNOT_JUDGE: too few rocks arrive even without forest. */
 enum ceduo_judgement {
     CEDUO_JUDGEMENT_UNANSWERED,
     CEDUO_JUDGEMENT_YES,
@@ -374,6 +379,10 @@ enum ceduo_judgement {
     CEDUO_JUDGEMENT_DEPENDS,
     CEDUO_JUDGEMENT_CANNOT_JUDGE
 };
+
+/* Judge whether the share of the released that exceeds the accepted energy is at most the limit of the control. Uses one energy
+ * law and the sampling error alone. `wooded` may be NULL (not simulated). Return CEDUO_JUDGEMENT_UNANSWERED without an accepted
+ * energy, or if `wooded` is NULL and the slope without forest does not meet the limit. */
 enum ceduo_judgement ceduo_judge_control(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded);
 
 /* ---- pool of runs ---- */
@@ -385,7 +394,7 @@ struct ceduo_pool;
 /* Free a pool with all its runs. `pool` may be NULL. */
 void ceduo_pool_free(struct ceduo_pool *pool);
 
-/* Return the run through the forest of `option`, or NULL if the pool has none. */
+/* Return the run through the forest of `option` (NULL: without forest), or NULL if the pool has none. The pool owns it. */
 struct ceduo_run *ceduo_pool_find(const struct ceduo_pool *pool, const struct ceduo_option *option);
 
 /* Work of all runs up to now. */
@@ -458,10 +467,11 @@ struct ceduo_result {
     struct ceduo_option_result *options;
 };
 
-/* Return the arrivals at a control through the forest of an option. NULL with the contact model index, or if not known yet. */
+/* Return the arrivals at a control through the forest of an option. NULL: contact model index, not simulated, or no such option
+ * or control. */
 const struct ceduo_arrivals *ceduo_result_wooded(const struct ceduo_result *result, size_t option, size_t control);
 
-/* Return the index of an option at the last control. */
+/* Return the index of an option at the last control; NULL: no such option, or no control. */
 const struct ceduo_index *ceduo_result_last_index(const struct ceduo_result *result, size_t option);
 
 /* ---- request ---- */
@@ -534,6 +544,8 @@ struct ceduo_results {
  * without options) or a status of ceduo_scene_check(). The results are empty then. Caller releases them in any case. */
 enum ceduo_status ceduo_simulate_request(const struct ceduo_request *request, struct ceduo_pool **pool,
                                          struct ceduo_results *results);
+
+/* Release the results. A second call has no effect. */
 void ceduo_results_release(struct ceduo_results *results);
 
 /* ---- records of single rocks ---- */
@@ -589,6 +601,8 @@ struct ceduo_record {
 /* Simulate and record. Return CEDUO_OK, or CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT or a status of
  * ceduo_scene_check(). The caller releases *record in any case. */
 enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_record *record);
+
+/* Release a record. A second call has no effect. */
 void ceduo_record_release(struct ceduo_record *record);
 
 #endif

@@ -96,6 +96,8 @@ struct ceduo_survey_result {
 
 /* Compute the stand. Return CEDUO_OK, CEDUO_NO_MEMORY or CEDUO_BAD_ARGUMENT. The caller releases *answer in any case. */
 enum ceduo_status ceduo_survey_compute(const struct ceduo_survey *survey, struct ceduo_survey_result *answer);
+
+/* Release a result. A second call has no effect. */
 void ceduo_survey_release(struct ceduo_survey_result *answer);
 
 #endif

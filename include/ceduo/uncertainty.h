@@ -211,6 +211,8 @@ struct ceduo_uncertainty_result {
  * CEDUO_NO_MEMORY, CEDUO_CANCELLED, CEDUO_BAD_ARGUMENT (a member of the def out of range, an input without words or draws, a
  * scene without control) or the status of ceduo_scene_check(). The caller releases *answer in any case. */
 enum ceduo_status ceduo_uncertainty_compute(const struct ceduo_uncertainty_def *def, struct ceduo_uncertainty_result *answer);
+
+/* Release a result. A second call has no effect. */
 void ceduo_uncertainty_release(struct ceduo_uncertainty_result *answer);
 
 /* Return a figure; NULL if there is no such option or figure. Figures over a rotation require answer->rotation. */

@@ -51,6 +51,8 @@ struct ceduo_grown_stand {
  * are stools, of trees if any are retained). */
 enum ceduo_status ceduo_stand_at(const struct ceduo_stand *stand, double first_cut, unsigned year,
                                  struct ceduo_grown_stand *out);
+
+/* Release a stand. A second call has no effect. */
 void ceduo_grown_stand_release(struct ceduo_grown_stand *grown);
 
 /* ---- yield ---- */
@@ -81,6 +83,8 @@ struct ceduo_yield {
 /* Compute the yield of an option, with the fellings from year 0 to `last`, at most CEDUO_YEAR_MAX. Return CEDUO_OK, or
  * CEDUO_NO_MEMORY, CEDUO_BAD_STAND or CEDUO_BAD_ARGUMENT. The caller releases *yield in any case. */
 enum ceduo_status ceduo_yield_compute(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield);
+
+/* Release a yield. A second call has no effect. */
 void ceduo_yield_release(struct ceduo_yield *yield);
 
 /* ---- years of an option ---- */
@@ -137,6 +141,8 @@ struct ceduo_years_summary {
     double worst;                             /* this share, or this ADC in m */
     double passes_per_year, exceeds_per_year; /* expected, if the scene gives rocks_per_year */
 };
+
+/* Return the summary at a control; `nothing` is true for a control that does not exist. */
 struct ceduo_years_summary ceduo_years_summarize(const struct ceduo_years *years, size_t control);
 
 /* Return the difference of the mean marked shares of two options, over the rocks that both have. NaN if unknown. */

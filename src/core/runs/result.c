@@ -271,5 +271,6 @@ uint64_t ceduo_result_unfinished(const struct ceduo_result *result)
 
 const struct ceduo_index *ceduo_result_last_index(const struct ceduo_result *result, size_t option)
 {
-    return &result->options[option].controls[result->last_control];
+    bool known = option < result->options_count && result->last_control < result->bare.controls;
+    return known ? &result->options[option].controls[result->last_control] : NULL;
 }
