@@ -381,11 +381,12 @@ static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, i
     ceduo_canvas_draw_text(&cells->canvas, x, y, span, role, shown);
 }
 
-static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t i, int y, const char *edit)
+/* `label`: columns of the labels. */
+static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t i, int y, int label, const char *edit)
 {
     const struct form_row *row = &form->rows[i];
     struct ceduo_canvas *canvas = &cells->canvas;
-    int left = form->area.left, width = form->area.width, label = label_columns(form, width);
+    int left = form->area.left, width = form->area.width;
     if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
         ceduo_canvas_draw_text(canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM,
                                row->label);
@@ -409,13 +410,11 @@ static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t 
     }
 }
 
-void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit)
+void ceduo_form_scroll(struct form *form, struct ceduo_area area)
 {
-    form->area = area;
-    if (area.height <= 0 || area.width < 8)
-        return;
     struct viewport *v = &form->lines;
     size_t above = form->row, below = form->row;
+    form->area = area;
     while (above > 0 && !has_fields(&form->rows[above - 1])) /* show headings with the line below */
         above--;
     while (below + 1 < form->n && !has_fields(&form->rows[below + 1]))
@@ -425,8 +424,18 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
     viewport_fit(v, area.height, (int)form->n);
     viewport_show(v, (int)above, (int)below);
     viewport_show(v, (int)form->row, (int)form->row); /* the cursor has priority in a low area */
+}
+
+void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit)
+{
+    form->area = area;
+    if (area.height <= 0 || area.width < 8)
+        return;
+    ceduo_form_scroll(form, area);
+    const struct viewport *v = &form->lines;
+    int label = label_columns(form, area.width);
     for (int i = v->first; i < v->first + v->rows && i < v->count; i++)
-        draw_row(form, cells, (size_t)i, area.top + i - v->first, edit);
+        draw_row(form, cells, (size_t)i, area.top + i - v->first, label, edit);
 }
 
 /* Compute the first column of cell k; the label belongs to the first cell. The end of the last cell is that of the form. */

@@ -70,6 +70,9 @@ void ceduo_form_go_to_item(struct form *form, const char *list, size_t index);
 struct form_cell *ceduo_form_cell(struct form *form);
 struct form_row *ceduo_form_row(struct form *form);
 
+/* Scroll to the cursor, for an area. */
+void ceduo_form_scroll(struct form *form, struct ceduo_area area);
+
 /* Draw the lines, scrolled to the cursor. `edit`: text shown in the cell under the cursor; may be NULL. */
 void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit);
 

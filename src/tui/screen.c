@@ -310,18 +310,16 @@ void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
 {
     const struct popup *p = app->popup && app->popup->kind == POPUP_FIELD ? app->popup : NULL;
     struct form *form = ceduo_app_form(app);
-    const char *edit = p ? p->fields[0].line.text : NULL;
     struct ceduo_area cell;
     if (area.height <= 0)
         return;
-    ceduo_form_draw(form, app->cells, area, edit);
+    ceduo_form_scroll(form, area);
     if (!draw_head_beside(app, area)) { /* a line of its own */
         struct ceduo_area head = cut_top(&area, 1);
-        ceduo_cells_clear_area(app->cells, head);
-        ceduo_cells_clear_area(app->cells, area);
-        ceduo_form_draw(form, app->cells, area, edit);
+        ceduo_form_scroll(form, area);
         ceduo_canvas_draw_text(&app->cells->canvas, head.left, head.top, head.width, CEDUO_ROLE_TITLE, form_head(app));
     }
+    ceduo_form_draw(form, app->cells, area, p ? p->fields[0].line.text : NULL);
     if (area.height <= 0)
         return;
     ceduo_app_add_hit(app, (struct hit){.area = area, .click = click_form, .first = form->lines.first, .wheel = move_form});
