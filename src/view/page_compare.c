@@ -355,7 +355,7 @@ static void add_option_row(struct ceduo_page *page, const enum column *set, cons
             ceduo_page_cell_role(page,
                                  column == ENERGY || column == CONTACT || column == FREE_RUN
                                      ? ceduo_plot_light_role(get_light(column, s))
-                                 : column == MARK  ? CEDUO_ROLE_CURSOR
+                                 : column == MARK  ? CEDUO_ROLE_TITLE
                                  : column == YEARS ? CEDUO_ROLE_MEAN
                                                    : CEDUO_ROLE_BLANK,
                                  format_cell(column, s, buffer));
