@@ -48,6 +48,7 @@ struct arguments {
     enum ceduo_plot plot;        /* a picture instead of the page */
     int plot_width, plot_height; /* cells, with the title */
     const char *script;          /* keys and commands for the terminal program; NULL: none */
+    bool tour;                   /* start the terminal program with the tour */
     enum ceduo_charset charset;
     int language;       /* a word of the option's row */
     const char *output; /* NULL: standard output */

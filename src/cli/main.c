@@ -64,6 +64,8 @@ static enum exit_status interact(const struct arguments *a)
                                      a->script != NULL);
     enum exit_status status = EXIT_INPUT;
     ceduo_print_problems(&app.document.problems);
+    if (good && a->tour)
+        ceduo_tour_start(&app, a->scenes_count > 0 ? a->scenes[0] : NULL);
     if (good && a->script) {
         status = statuses[ceduo_script_run(&app, a->script)];
     } else if (good) {

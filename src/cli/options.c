@@ -347,6 +347,8 @@ static const struct option_row rows[] = {
      .help = N_("language of tables, screens and messages (from the locale)")},
     {"script", 0, "FILE", set_text, MEMBER(script), MODE_TERMINAL, ~(unsigned)M_SCREEN,
      .help = N_("run keys and commands in the terminal program; needs no terminal")},
+    {"tour", 0, NULL, set_flag, MEMBER(tour), MODE_TERMINAL, ~(unsigned)M_SCREEN,
+     .help = N_("show the terminal program in ten questions; Esc ends the tour and opens the scene")},
     {"check", 0, NULL, NULL, 0, MODE_CHECK, M_SURVEY, .help = N_("check the scenes and print every problem; compute nothing")},
     {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, M_SURVEY,
      .help = N_("list path, type, unit, range, default and meaning of each parameter")},

@@ -268,6 +268,11 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
     return good;
 }
 
+void ceduo_app_set_search(struct app *app, const char *text)
+{
+    snprintf(app->search, sizeof app->search, "%.*s", (int)sizeof app->search - 1, text);
+}
+
 /* ---- opening and closing ---- */
 
 /* Replace the document. The figures use its memory, so they are freed first. Report an unusual value. False: no thread. */
@@ -359,7 +364,7 @@ void ceduo_app_resize(struct app *app, int width, int height)
     app->last_screen.cells = NULL;
     app->cells = cells;
     app->width = width;
-    app->height = height;
+    app->height = app->tour.step ? height - TOUR_LINES : height;
     app->drawn = false;
 }
 
@@ -394,13 +399,30 @@ void ceduo_app_draw_label(struct app *app, int x, int y, enum ceduo_role role, c
     va_end(args);
 }
 
+/* Return the length of the first line of a text. Set *next to the second line. */
+static size_t wrap_line(const char *text, int columns, const char **next)
+{
+    size_t width = columns > 0 ? (size_t)columns : 0;
+    bool continues = ceduo_utf8_char_width(text, strcspn(text, "\n")) > width; /* keep the last column free */
+    return ceduo_utf8_wrap(text, continues && width > 0 ? width - 1 : width, next);
+}
+
+int ceduo_app_find_line(const char *text, int width, const char *place)
+{
+    int line = 0;
+    for (const char *next; *text; text = next, line++) {
+        wrap_line(text, width, &next);
+        if (next > place)
+            break;
+    }
+    return line;
+}
+
 int ceduo_app_draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip)
 {
     int lines = 0;
-    size_t width = area.width > 0 ? (size_t)area.width : 0;
     for (const char *next; *text; text = next, lines++) {
-        bool continues = ceduo_utf8_char_width(text, strcspn(text, "\n")) > width; /* keep the last column free */
-        size_t n = ceduo_utf8_wrap(text, continues && width > 0 ? width - 1 : width, &next);
+        size_t n = wrap_line(text, area.width, &next);
         if (lines >= skip && lines - skip < area.height)
             ceduo_app_draw_label(app, area.left, area.top + lines - skip, role, "%.*s", (int)n, text);
     }

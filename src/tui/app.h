@@ -109,6 +109,16 @@ struct last_screen {
     size_t option, year;
 };
 
+#define TOUR_LINES 3 /* last lines of the screen, for the tour */
+
+/* Position in the tour (tour.c). */
+struct tour {
+    const struct tour_step *step; /* NULL: no tour */
+    const char *keys;             /* remaining keys of the step */
+    const char *path;             /* scene to open at the end; NULL: the site of the paper */
+    bool no_recovery;             /* value to restore at the end */
+};
+
 struct app {
     struct document document;
     struct arena *scratch; /* strings that live until the next key */
@@ -119,8 +129,8 @@ struct app {
     size_t pictures_count;
     struct hit hits[HITS_MAX];
     size_t hits_count;
-    bool drawn; /* neither input nor results since the screen was drawn: the hits are up to date */
-    int width, height;
+    bool drawn;        /* neither input nor results since the screen was drawn: the hits are up to date */
+    int width, height; /* size of the program: the cells without the lines of a tour */
     enum ceduo_charset charset;
     int theme; /* 0 dark, 1 light, 2 none */
     enum view_number view;
@@ -134,6 +144,8 @@ struct app {
     bool message_is_warning;
     char search[128];
     struct popup *popup;
+    struct tour tour;
+    bool plain;                          /* started without a scene, and no key was pressed outside a popup */
     bool just_opened;                    /* a document was just opened: offer abandoned work */
     bool no_recovery;                    /* for scripts: offer no unsaved work, keep no copy */
     bool uncertainty_on;                 /* compute uncertainty; in a script, from the first visit of view 7 on */
@@ -151,6 +163,7 @@ bool ceduo_app_open(struct app *app, const char *path, const char *text);
 
 void ceduo_popup_close(struct app *app); /* close the open popup, if any (popup.c) */
 
+/* Set the size of the cells. */
 void ceduo_app_resize(struct app *app, int width, int height);
 
 /* Return a string that lives until the next key. Return a path in words. */
@@ -164,6 +177,9 @@ void ceduo_app_show_problem(struct app *app, bool bad, const char *format, ...) 
 
 /* End an edit: update form and figures if it was good, otherwise show the reason. Return `good`. */
 bool ceduo_app_finish_edit(struct app *app, bool good);
+
+/* Set the text to search for in views and texts. */
+void ceduo_app_set_search(struct app *app, const char *text);
 
 /* Set a value, written as in a file, and remove conflicting values. */
 bool ceduo_app_set(struct app *app, const char *path, const char *value);
@@ -230,6 +246,9 @@ size_t ceduo_items_find_segment(const struct app *app, double x_written);
 /* Draw the screen on app->cells (screen.c). */
 void ceduo_screen_draw(struct app *app);
 
+/* Draw the text of the tour below the screen, if one is played (tour.c). */
+void ceduo_tour_draw(struct app *app);
+
 /* Let the mouse act on an area that was drawn. */
 void ceduo_app_add_hit(struct app *app, struct hit hit);
 
@@ -239,6 +258,9 @@ const char *ceduo_app_position(const struct app *app, const struct viewport *lin
 /* Draw wrapped text in a rectangle, without the first `skip` lines. Return the number of lines; the second only counts. */
 int ceduo_app_draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip);
 int ceduo_app_count_lines(struct app *app, const char *text, int width);
+
+/* Return the line of a wrapped text that holds `place`, a pointer into the text. */
+int ceduo_app_find_line(const char *text, int width, const char *place);
 
 /* Shorten a text to n lines, with an ellipsis. */
 void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines);

@@ -103,4 +103,7 @@ extern const struct action_info ceduo_actions[ACTION_COUNT];
 /* Return the action of a key, or ACTION_NONE. */
 enum action ceduo_action_find(int key);
 
+/* Return a key by name: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; otherwise K_NONE. */
+int ceduo_key_find(const char *name);
+
 #endif

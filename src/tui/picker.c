@@ -176,27 +176,36 @@ bool ceduo_picker_is_file(const char *name, const char *endings)
     return match && strchr(" ", match[strlen(dot)]);
 }
 
+/* Add the entries of a folder with a rank: the first ending, the others, folders. */
+static void add_entries(struct picker *p, const char *folder, struct dirent **entries, int count, const char *endings, int rank)
+{
+    LOCAL_TEXT(path);
+    for (int i = 0; i < count && i < FILES_MAX; i++) {
+        struct stat st;
+        const char *name = entries[i]->d_name, *dot = strrchr(name, '.');
+        path.length = 0;
+        ceduo_text_format(&path, "%s%s", folder, name);
+        bool is_folder = stat(path.bytes, &st) == 0 && S_ISDIR(st.st_mode);
+        bool is_file = !is_folder && ceduo_picker_is_file(name, endings);
+        if (is_folder)
+            ceduo_text_append(&path, "/");
+        if (name[0] != '.' && (rank == 2 ? is_folder : is_file && (strcasestr(endings, dot) != endings) == rank) &&
+            !ceduo_picker_has(p, path.bytes))
+            ceduo_picker_add(p, path.bytes, path.bytes, path.bytes, false);
+    }
+}
+
 void ceduo_picker_add_files(struct picker *p, const char *typed, const char *endings)
 {
     const char *slash = strrchr(typed, '/');
     LOCAL_TEXT(folder);
-    LOCAL_TEXT(path);
     struct dirent **entries = NULL;
     ceduo_text_append_n(&folder, typed, slash ? (size_t)(slash - typed) + 1 : 0);
     int count = scandir(folder.length ? folder.bytes : ".", &entries, NULL, alphasort);
-    for (int i = 0; i < count; i++) {
-        struct stat st;
-        const char *name = entries[i]->d_name;
-        path.length = 0;
-        ceduo_text_format(&path, "%s%s", ceduo_text_string(&folder), name);
-        bool is_folder = stat(path.bytes, &st) == 0 && S_ISDIR(st.st_mode);
-        if (is_folder)
-            ceduo_text_append(&path, "/");
-        if (i < FILES_MAX && name[0] != '.' && (is_folder || ceduo_picker_is_file(name, endings)) &&
-            !ceduo_picker_has(p, path.bytes))
-            ceduo_picker_add(p, path.bytes, path.bytes, path.bytes, false);
+    for (int rank = 0; rank <= 2; rank++)
+        add_entries(p, ceduo_text_string(&folder), entries, count, endings, rank);
+    for (int i = 0; i < count; i++)
         free(entries[i]);
-    }
     free(entries);
 }
 

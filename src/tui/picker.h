@@ -56,7 +56,7 @@ void ceduo_picker_draw(struct picker *picker, struct ceduo_cells *cells, struct 
 
 /* ---- files ---- */
 
-/* Add completions of a typed path: folders, and files with one of the endings (".csv .txt"). */
+/* Add completions of a typed path: files with the first of the endings (".csv .txt"), with the others, then folders. */
 void ceduo_picker_add_files(struct picker *picker, const char *typed, const char *endings);
 
 /* True if a name has one of the endings, in lower or upper case. */

@@ -69,7 +69,7 @@ void ceduo_popup_add_item(struct popup *p, const char *text, const char *value)
 void ceduo_popup_add_menu_item(struct popup *p, char key, const char *text, const char *value)
 {
     char line[256];
-    assert((key >= '1' && key <= '9') || (key >= 'a' && key <= 'z')); /* only 1 to 9 */
+    assert((key >= '1' && key <= '9') || (key >= 'a' && key <= 'z') || key == ' '); /* only 1 to 9 */
     snprintf(line, sizeof line, "%c  %s", key, text);
     p->is_menu = true;
     ceduo_popup_add_item(p, line, value);
@@ -198,12 +198,45 @@ static int key_lines(int key, bool letters)
     return action != ACTION_NONE && (letters || ceduo_actions[action].key == key) ? lines[action] : 0;
 }
 
+/* Find the next place that contains the search text; after the last place begin again. */
+static void search_text(struct app *app, struct popup *p)
+{
+    const char *text = ceduo_text_string(&p->text), *from = text + (p->found < p->text.length ? p->found : 0);
+    const char *place = strcasestr(from, app->search);
+    place = place ? place : strcasestr(text, app->search);
+    p->found = place && app->search[0] ? (size_t)(place - text) + 1 : 0;
+    p->show_found = p->found > 0;
+    if (!p->show_found)
+        ceduo_app_warn(app, _("'%s' not found"), app->search);
+}
+
+#define TEXT_FRAME 4 /* lines of the screen around a long text */
+
 static void handle_text_key(struct app *app, struct popup *p, int key)
 {
-    int step = key_lines(key, true);
-    viewport_scroll(&p->lines, step);
-    if (step == 0)
+    enum action action = ceduo_action_find(key);
+    int page = app->height - TEXT_FRAME - 1; /* keep a line in view; keys may precede drawing */
+    int step = key == ' ' || action == ACTION_PAGE_DOWN ? page : action == ACTION_PAGE_UP ? -page : key_lines(key, true);
+    struct line *line = &p->fields[0].line;
+    app->message[0] = '\0';
+    if (p->typing && (key == K_ENTER || key == K_ESCAPE)) {
+        p->typing = false;
+        if (key == K_ENTER) {
+            ceduo_app_set_search(app, line->text);
+            search_text(app, p);
+        }
+    } else if (p->typing) {
+        ceduo_line_handle_key(line, key);
+    } else if (action == ACTION_SEARCH) {
+        p->typing = true;
+        ceduo_line_set(line, app->search);
+    } else if (action == ACTION_SEARCH_NEXT) {
+        search_text(app, p);
+    } else if (step != 0) {
+        viewport_scroll(&p->lines, step);
+    } else {
         ceduo_popup_close(app);
+    }
 }
 
 /* Choose the item under the cursor. Detach the popup first: the callback may open another. */
@@ -231,7 +264,7 @@ static void handle_list_key(struct app *app, struct popup *p, int key)
         viewport_move(&p->picker.lines, step);
     } else if (p->is_menu) {
         for (size_t i = 0; i < p->picker.matches; i++)
-            if (p->picker.items[p->picker.order[i]].text[0] == key) {
+            if (key != ' ' && p->picker.items[p->picker.order[i]].text[0] == key) {
                 p->picker.lines.selected = (int)i;
                 choose_item(app, p);
                 return;
@@ -347,6 +380,22 @@ static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines,
     return inner;
 }
 
+/* Draw an input line, scrolled to its end. */
+static void draw_input(struct app *app, const struct line *line, int x, int y, int width, bool cursor)
+{
+    int n = ceduo_cells_label_end(app->cells, x, y, width - 1, cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, line->text);
+    if (cursor)
+        ceduo_cells_label(app->cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
+}
+
+/* Draw the line of the search text. */
+static void draw_search(struct app *app, struct popup *p, struct ceduo_area area)
+{
+    int label = (int)ceduo_utf8_width(_("search:")) + 1;
+    ceduo_app_draw_label(app, area.left, area.top, CEDUO_ROLE_DIM, "%s", _("search:"));
+    draw_input(app, &p->fields[0].line, area.left + label, area.top, area.width - label, true);
+}
+
 static void scroll_text(struct app *app, int lines)
 {
     viewport_scroll(&app->popup->lines, lines);
@@ -354,9 +403,24 @@ static void scroll_text(struct app *app, int lines)
 
 static void draw_text(struct app *app, struct popup *p)
 {
+    const char *text = ceduo_text_string(&p->text);
     struct ceduo_area inner = draw_frame(app, p, app->height, 0);
-    viewport_fit(&p->lines, inner.height, ceduo_app_count_lines(app, ceduo_text_string(&p->text), inner.width));
-    ceduo_app_draw_wrapped(app, inner, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), p->lines.first);
+    if (p->typing)
+        draw_search(app, p, cut_top(&inner, 1));
+    else if (app->message[0])
+        ceduo_app_draw_wrapped(app, cut_top(&inner, 1), CEDUO_ROLE_WARN, app->message, 0);
+    viewport_fit(&p->lines, inner.height, ceduo_app_count_lines(app, text, inner.width));
+    int found = p->found > 0 ? ceduo_app_find_line(text, inner.width, text + p->found - 1) : -1;
+    int below = found + p->lines.rows / 2, last = below < p->lines.count ? below : p->lines.count - 1;
+    if (p->show_found)
+        viewport_show(&p->lines, found, last);
+    p->show_found = false;
+    ceduo_app_draw_wrapped(app, inner, CEDUO_ROLE_TEXT, text, p->lines.first);
+    if (found >= p->lines.first) { /* draw the text again into the area of this line */
+        struct ceduo_area line = {inner.left, inner.top + found - p->lines.first, inner.width,
+                                  found - p->lines.first < inner.height};
+        ceduo_app_draw_wrapped(app, line, CEDUO_ROLE_CURSOR, text, found);
+    }
     draw_position(app, p, false, &p->lines, p->lines.first + p->lines.rows - 1);
     ceduo_app_add_hit(app, (struct hit){.area = inner, .wheel = scroll_text});
 }
@@ -389,23 +453,12 @@ static void draw_items(struct app *app, struct popup *p, struct ceduo_area area)
                                             .wheel = move_item});
 }
 
-/* Draw an input line, scrolled to its end. */
-static void draw_input(struct app *app, const struct line *line, int x, int y, int width, bool cursor)
-{
-    int n = ceduo_cells_label_end(app->cells, x, y, width - 1, cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, line->text);
-    if (cursor)
-        ceduo_cells_label(app->cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
-}
-
 static void draw_list(struct app *app, struct popup *p)
 {
     int lines = p->picker.count > 2 ? (int)p->picker.count : 2;
     struct ceduo_area inner = draw_frame(app, p, lines + !p->is_menu, NOTE_LINES);
-    if (!p->is_menu) {
-        ceduo_app_draw_label(app, inner.left, inner.top, CEDUO_ROLE_DIM, "%s", _("search:"));
-        int x = inner.left + (int)ceduo_utf8_width(_("search:")) + 1;
-        draw_input(app, &p->fields[0].line, x, cut_top(&inner, 1).top, inner.left + inner.width - x, true);
-    }
+    if (!p->is_menu)
+        draw_search(app, p, cut_top(&inner, 1));
     if (app->message[0] && !p->is_menu)
         ceduo_app_draw_wrapped(app, inner, CEDUO_ROLE_WARN, app->message, 0);
     else if (p->picker.matches == 0 && !p->is_menu)
@@ -463,7 +516,7 @@ static const struct {
     void (*draw)(struct app *app, struct popup *popup);
     const char *bar;
 } popup_kinds[] = {
-    [POPUP_TEXT] = {handle_text_key, draw_text, N_("Up Down PgUp PgDn scroll  any other key closes")},
+    [POPUP_TEXT] = {handle_text_key, draw_text, N_("Space page  / search  Up Down scroll  any other key closes")},
     [POPUP_FIELD] = {handle_field_key, NULL, N_("Enter accept  Esc cancel  empty: default")},
     [POPUP_LIST] = {handle_list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab complete  Up Down move")},
     [POPUP_FIELDS] = {handle_fields_key, draw_fields, N_("Enter next field, on the last one done  Esc back  Tab complete")}};
@@ -476,7 +529,7 @@ void ceduo_popup_key(struct app *app, int key)
 bool ceduo_popup_paste(struct app *app, const char *text)
 {
     struct popup *p = app->popup;
-    if (p->kind == POPUP_TEXT || p->is_menu)
+    if ((p->kind == POPUP_TEXT && !p->typing) || p->is_menu)
         return false;
     if (p->kind == POPUP_FIELDS)
         ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* as a key does */
@@ -489,7 +542,9 @@ bool ceduo_popup_paste(struct app *app, const char *text)
 
 const char *ceduo_popup_key_help(const struct app *app)
 {
-    return app->popup->is_menu ? _("a letter, or Up Down and Enter  Esc cancel") : _(popup_kinds[app->popup->kind].bar);
+    return app->popup->typing    ? _("Enter search  Esc cancel")
+           : app->popup->is_menu ? _("a letter, or Up Down and Enter  Esc cancel")
+                                 : _(popup_kinds[app->popup->kind].bar);
 }
 
 /* Rebuild the note. */

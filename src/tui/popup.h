@@ -45,6 +45,9 @@ struct popup {
     bool listed;            /* items are listed */
     bool cursor_moved;      /* the cursor was moved in the picker */
     bool keep_input;        /* do not replace the input by the first completion */
+    bool typing;            /* in a text: the search text is being typed, in the first field */
+    size_t found;           /* in a text: offset of the place found, plus 1; 0: none */
+    bool show_found;        /* scroll to that place when the text is drawn */
     struct viewport lines;  /* viewport of the text or the fields */
     struct ceduo_area box;  /* position on the screen */
     const char *target;     /* path of the edited value, or another key of the caller */
@@ -65,7 +68,7 @@ struct popup *ceduo_popup_text(struct app *app, const char *title);
 struct popup *ceduo_popup_list(struct app *app, const char *title, const char *target, popup_call *on_select);
 struct popup *ceduo_popup_fields(struct app *app, const char *title, const char *target, popup_check *on_submit);
 void ceduo_popup_add_item(struct popup *popup, const char *text, const char *value);
-/* Add an item that a key chooses; the key stands before the text. All items of the list must have one. */
+/* Add an item that a key chooses; the key stands before the text. ' ': only the cursor chooses it. */
 void ceduo_popup_add_menu_item(struct popup *popup, char key, const char *text, const char *value);
 struct popup_field *ceduo_popup_add_field(struct popup *popup, const char *label, const char *value);
 /* Add a field with completions; the best match replaces the typed text. */

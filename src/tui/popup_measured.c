@@ -201,6 +201,22 @@ static void complete_answers(struct app *app, struct popup *p)
         ceduo_popup_add_item(p, _(answers[i]), _(answers[i]));
 }
 
+/* Show how the survey is understood with these answers, once. Return true if it is shown. */
+static bool show_understood(struct app *app, struct popup *p, struct survey_answers *answers)
+{
+    struct line *last = &p->fields[p->fields_count - 1].line;
+    LOCAL_TEXT(value);
+    LOCAL_TEXT(understood);
+    LOCAL_PROBLEMS(problems);
+    if (last->confirmed || !read_survey(p->context, answers, &value, &understood, &problems))
+        return false;
+    ceduo_text_free(&p->text);
+    ceduo_text_append_escaped(&p->text, ceduo_text_string(&understood));
+    last->confirmed = true;
+    ceduo_app_show_message(app, "%s", _("Enter again takes this stand"));
+    return true;
+}
+
 static bool submit_survey_form(struct app *app, struct popup *p)
 {
     struct survey_answers answers = {0};
@@ -213,6 +229,8 @@ static bool submit_survey_form(struct app *app, struct popup *p)
             return false;
         }
     }
+    if (show_understood(app, p, &answers))
+        return false;
     apply_survey(app, p->target, p->context, &answers);
     return true;
 }
@@ -244,13 +262,27 @@ static void select_survey(struct app *app, struct popup *p)
     apply_survey(app, p->target, p->value, &(struct survey_answers){0});
 }
 
+/* Show how the table under the cursor is understood, or why it is refused; over a folder the columns of a survey. */
+static void note_survey(struct app *app, struct popup *p)
+{
+    (void)app;
+    LOCAL_TEXT(value);
+    LOCAL_TEXT(note);
+    LOCAL_PROBLEMS(problems);
+    if (!ceduo_picker_is_file(p->value, p->endings))
+        ceduo_text_append(&note,
+                          _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, "
+                            "status; see ceduo-stand(5)."));
+    else if (!read_survey(p->value, &(struct survey_answers){0}, &value, &note, &problems) && problems.wrong.n > 0)
+        ceduo_problem_line(problems.wrong.items, &note);
+    ceduo_text_append_escaped(&p->text, ceduo_text_string(&note));
+}
+
 static void ask_survey_file(struct app *app)
 {
     struct popup *p =
         ceduo_popup_list(app, _("Survey: a CSV file with one row per stem or class"), ceduo_app_stand(app), select_survey);
-    ceduo_text_append(&p->text,
-                      _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, count, status; "
-                        "see ceduo-stand(5)."));
+    p->update_note = note_survey;
     p->fields[0].complete = complete_surveys;
     p->endings = ".csv .txt";
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Saving, and questions about unsaved work of this and earlier processes. */
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -209,6 +210,17 @@ void ceduo_popup_quit(struct app *app)
 /* ---- abandoned work ---- */
 
 #define RECOVERY "recover:" /* prefix of the path of a copy */
+#define DELETE   "delete"
+#define ALL      "all"
+
+/* Return the age of a copy in words. */
+static const char *describe_age(const struct app *app, time_t when)
+{
+    double minutes = fmax(difftime(time(NULL), when) / 60, 0), hours = minutes / 60, days = hours / 24;
+    return hours < 1  ? ceduo_app_format(app, _("%.0f min ago"), floor(minutes))
+           : days < 2 ? ceduo_app_format(app, _("%.0f h ago"), floor(hours))
+                      : ceduo_app_format(app, _("%.0f days ago"), floor(days));
+}
 
 /* Add a copy to the list. `key`: chooses it; 0: found by typing. */
 static void add_recovery(const struct app *app, struct popup *p, const struct recovery *r, char key)
@@ -217,13 +229,14 @@ static void add_recovery(const struct app *app, struct popup *p, const struct re
     struct tm tm;
     if (localtime_r(&r->when, &tm))
         strftime(date, sizeof date, "%Y-%m-%d %H:%M", &tm);
-    const char *words = ceduo_app_format(app, _("unsaved changes of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
-                                         r->scene ? ceduo_file_name(r->scene) : _("never saved"));
+    const char *words =
+        ceduo_app_format(app, "%s, %s: %s, %s", date, describe_age(app, r->when),
+                         r->scene ? ceduo_file_name(r->scene) : _("never saved"), r->title[0] ? r->title : _("no title"));
     const char *value = ceduo_app_format(app, RECOVERY "%s", r->file);
     if (key)
         ceduo_popup_add_menu_item(p, key, words, value);
     else
-        ceduo_popup_add_item(p, words, value);
+        ceduo_popup_add_item(p, ceduo_app_format(app, _("unsaved changes of %s"), words), value);
 }
 
 void ceduo_popup_offer_recoveries(const struct app *app, struct popup *p)
@@ -266,30 +279,64 @@ bool ceduo_popup_open_recovery(struct app *app, const char *value)
     return true;
 }
 
+/* List the copies as a menu, the newest first, or those of a named document first. The first nine have a digit. */
+static struct popup *list_recoveries(struct app *app, const char *title, popup_call *on_select)
+{
+    struct popup *p = ceduo_popup_list(app, title, "", on_select);
+    size_t n;
+    const struct recovery *list = ceduo_recovery_list(&p->arena, &n);
+    char key = '1';
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < n; i++)
+            if ((app->plain || is_of_this_document(app, &list[i])) == !pass)
+                add_recovery(app, p, &list[i], key <= '9' ? key++ : ' ');
+    return p;
+}
+
+static void offer_recoveries(struct app *app);
+
+/* Delete a copy, or all that were listed, and offer the others again. */
+static void select_deleted(struct app *app, struct popup *p)
+{
+    LOCAL_ARENA(arena);
+    size_t n;
+    const struct recovery *list = ceduo_recovery_list(&arena, &n);
+    for (size_t i = 0; i < n; i++) {
+        const char *value = ceduo_app_format(app, RECOVERY "%s", list[i].file);
+        if (strcmp(p->value, ALL) == 0 ? ceduo_picker_has(&p->picker, value) : strcmp(p->value, value) == 0)
+            unlink(list[i].file);
+    }
+    ceduo_recovery_list(&arena, &n);
+    if (n > 0)
+        offer_recoveries(app);
+}
+
 static void select_recovery(struct app *app, struct popup *p)
 {
-    size_t n;
-    const struct recovery *list = strcmp(p->value, "forget") == 0 ? ceduo_recovery_list(&p->arena, &n) : NULL;
-    for (size_t i = 0; list && i < n; i++)
-        unlink(list[i].file);
-    ceduo_popup_open_recovery(app, p->value);
+    if (strcmp(p->value, DELETE) != 0) {
+        ceduo_popup_open_recovery(app, p->value);
+        return;
+    }
+    struct popup *deleted = list_recoveries(app, _("Delete which unsaved changes?"), select_deleted);
+    ceduo_popup_add_menu_item(deleted, 'n', _("none"), "");
+    ceduo_popup_add_menu_item(deleted, 'a', _("all of them"), ALL);
+}
+
+static void offer_recoveries(struct app *app)
+{
+    struct popup *p = list_recoveries(app, _("Unsaved changes were found: open which?"), select_recovery);
+    ceduo_popup_add_menu_item(p, 'n', _("not now: o lists them, too"), "");
+    ceduo_popup_add_menu_item(p, 'd', _("delete some"), DELETE);
 }
 
 void ceduo_popup_recover(struct app *app)
 {
     LOCAL_ARENA(arena);
-    size_t n, count = 0;
+    size_t n;
     const struct recovery *list = ceduo_recovery_list(&arena, &n);
+    bool offers = app->plain && n > 0;
     for (size_t i = 0; i < n; i++)
-        count += is_of_this_document(app, &list[i]);
-    if (count > 0) {
-        struct popup *p = ceduo_popup_list(app, _("Unsaved changes were found"), "", select_recovery);
-        char key = '1';
-        for (int pass = 0; pass < 2; pass++)
-            for (size_t i = 0; i < n && key <= '9'; i++)
-                if (is_of_this_document(app, &list[i]) == !pass)
-                    add_recovery(app, p, &list[i], key++);
-        ceduo_popup_add_menu_item(p, 'n', _("not now: o lists them, too"), "");
-        ceduo_popup_add_menu_item(p, 'f', n > 1 ? _("forget all") : _("forget them"), "forget");
-    }
+        offers |= is_of_this_document(app, &list[i]);
+    if (offers)
+        offer_recoveries(app);
 }

@@ -3,8 +3,10 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/language.h"
+#include "base/utf8.h"
 #include "popup.h"
 
 static void undo_or_redo(struct app *app, int step)
@@ -63,7 +65,7 @@ static void search_next(struct app *app)
 
 static bool submit_search_text(struct app *app, struct popup *p)
 {
-    snprintf(app->search, sizeof app->search, "%.*s", (int)sizeof app->search - 1, p->fields[0].line.text);
+    ceduo_app_set_search(app, p->fields[0].line.text);
     search_next(app);
     return true;
 }
@@ -76,7 +78,7 @@ static void ask_search_text(struct app *app)
 static void change_charset(struct app *app)
 {
     app->charset = (enum ceduo_charset)((app->charset + 1) % 3);
-    ceduo_app_resize(app, app->width, app->height);
+    ceduo_app_resize(app, app->cells->width, app->cells->height);
 }
 
 /* ---- commands by name ---- */
@@ -96,7 +98,7 @@ static void list_commands(struct app *app)
                 ceduo_app_format(app, "%d", i));
 }
 
-/* ---- help: all keys, and the field under the cursor ---- */
+/* ---- help: the keys of the view, the field under the cursor, all keys ---- */
 
 /* Headings of the help, each with its first action. */
 static const struct {
@@ -117,10 +119,25 @@ static const struct {
     {N_("uncertainty"), N_("effect of uncertain inputs, such as the ground; more rocks do not reduce it")},
 };
 
+/* Add a key with its words. */
+static void add_key(struct popup *p, const struct app *app, enum action action, const char *words)
+{
+    const struct action_info *a = &ceduo_actions[action];
+    const char *keys = ceduo_app_format(app, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
+    ceduo_text_format(&p->text, "  %-16s%s\n", keys, words);
+}
+
 static void show_help(struct app *app)
 {
     struct popup *p = ceduo_popup_text(app, _("Keys"));
+    const struct view *view = ceduo_views[app->view];
     LOCAL_TEXT(field);
+    ceduo_text_format(&p->text, _("In this view, %d %s"), app->view + 1,
+                      ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + app->view].help));
+    ceduo_text_append_char(&p->text, '\n');
+    for (int k = 0; view->bar[k].word; k++)
+        add_key(p, app, view->bar[k].action, _(view->bar[k].word));
+    ceduo_text_append(&p->text, " \n");
     if (ceduo_app_state(app)->pane == 0)
         ceduo_form_explain(ceduo_app_form(app), &field);
     if (field.bytes) {
@@ -129,12 +146,10 @@ static void show_help(struct app *app)
     }
     ceduo_text_append(&p->text, _("Figures and pictures follow every edit at once.\n \n"));
     for (int i = 0; i < ACTION_COUNT; i++) {
-        const struct action_info *a = &ceduo_actions[i];
         for (size_t k = 0; k < sizeof help_groups / sizeof help_groups[0]; k++)
             if ((int)help_groups[k].first == i)
                 ceduo_text_format(&p->text, "%s%s\n", k > 0 ? " \n" : "", _(help_groups[k].heading));
-        const char *keys = ceduo_app_format(app, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
-        ceduo_text_format(&p->text, "  %-16s%s\n", keys, ceduo_translate_in(a->help));
+        add_key(p, app, (enum action)i, ceduo_translate_in(ceduo_actions[i].help));
     }
     ceduo_text_append(&p->text, " \n");
     ceduo_text_append(
@@ -164,6 +179,29 @@ enum action ceduo_action_find(int key)
         if (key != K_NONE && (ceduo_actions[i].key == key || ceduo_actions[i].key2 == key))
             return (enum action)i;
     return ACTION_NONE;
+}
+
+int ceduo_key_find(const char *name)
+{
+    static const struct {
+        const char *name;
+        int key;
+    } extra_keys[] = {{"Esc", K_ESCAPE}, {"Space", ' '}, {"Backspace", K_BACKSPACE},
+                      {"F8", K_F(8)},    {"F9", K_F(9)}, {"Ctrl-U", K_CTRL_U}};
+    uint32_t code;
+    size_t n = strlen(name);
+    if (n > 0 && ceduo_utf8_decode(name, n, &code) == n)
+        return (int)code;
+    for (int i = 0; i < ACTION_COUNT; i++) {
+        if (strcmp(ceduo_actions[i].word, name) == 0)
+            return ceduo_actions[i].key;
+        if (strcmp(ceduo_actions[i].word2, name) == 0)
+            return ceduo_actions[i].key2;
+    }
+    for (size_t i = 0; i < sizeof extra_keys / sizeof extra_keys[0]; i++)
+        if (strcmp(extra_keys[i].name, name) == 0)
+            return extra_keys[i].key;
+    return K_NONE;
 }
 
 static void open_view(struct app *app, int view)
@@ -228,9 +266,17 @@ static void end_input(struct app *app)
 
 void ceduo_program_key(struct app *app, int key)
 {
-    enum action action = ceduo_action_find(key);
+    bool first = app->plain && !app->popup && !app->tour.step;
+    if (app->tour.step && !ceduo_tour_accepts(app, key))
+        return;
     begin_input(app);
-    if (app->popup)
+    app->plain &= !first;
+    if (app->tour.step)
+        key = ceduo_tour_key(app, key);
+    enum action action = ceduo_action_find(key);
+    if (first && action == ACTION_THEME)
+        ceduo_tour_start(app, NULL);
+    else if (app->popup && key != K_NONE)
         ceduo_popup_key(app, key);
     else if (action != ACTION_NONE)
         run_action(app, action);
@@ -241,7 +287,9 @@ void ceduo_program_paste(struct app *app, const char *text)
 {
     begin_input(app);
     app->message[0] = '\0'; /* also the message of a popup */
-    if (!app->popup || !ceduo_popup_paste(app, text))
+    if (app->tour.step)
+        ceduo_app_show_message(app, "%s", _("nothing pasted: the tour types for you"));
+    else if (!app->popup || !ceduo_popup_paste(app, text))
         ceduo_app_show_message(app, "%s", _("nothing pasted: no field is open"));
     end_input(app);
 }
@@ -268,7 +316,7 @@ void ceduo_program_click(struct app *app, int x, int y)
         return;
     }
     begin_input(app);
-    if (hit.click)
+    if (hit.click && !app->tour.step)
         hit.click(app, x - hit.area.left, y - hit.area.top + hit.first);
     end_input(app);
 }
@@ -277,7 +325,7 @@ void ceduo_program_wheel(struct app *app, int x, int y, int lines)
 {
     struct hit hit = find_hit(app, x, y);
     begin_input(app);
-    if (hit.wheel)
+    if (hit.wheel && !app->tour.step)
         hit.wheel(app, lines);
     end_input(app);
 }
@@ -285,6 +333,10 @@ void ceduo_program_wheel(struct app *app, int x, int y, int lines)
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery)
 {
     bool good = ceduo_app_create(app, path, charset, threads, no_recovery);
+    app->plain = good && !path;
+    if (app->plain)
+        ceduo_app_show_message(app, "%s",
+                               _("t shows the program in ten questions; n asks for your own slope; o opens a scene"));
     if (good)
         end_input(app);
     return good;

@@ -15,6 +15,13 @@ void ceduo_program_click(struct app *app, int x, int y);
 void ceduo_program_wheel(struct app *app, int x, int y, int lines);
 bool ceduo_program_poll(struct app *app); /* take the results of the jobs; return true if the screen has changed */
 
+/* Start the tour (tour.c). At its end open the scene at `path` (NULL: the site of the paper), and offer abandoned work. */
+void ceduo_tour_start(struct app *app, const char *path);
+
+/* True if a key has an effect in the tour. Handle it, and return the key that the program handles; K_NONE: none. */
+bool ceduo_tour_accepts(const struct app *app, int key);
+int ceduo_tour_key(struct app *app, int key);
+
 /* Run a script without a terminal, one command per line (see ceduo-terminal(7)). Errors go to standard error. */
 enum script_end { SCRIPT_DONE, SCRIPT_WRONG, SCRIPT_UNREADABLE, SCRIPT_UNWRITTEN };
 enum script_end ceduo_script_run(struct app *app, const char *path);

@@ -222,16 +222,14 @@ static void draw_popup_bar(struct app *app)
     ceduo_canvas_draw_text(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM, help);
     app->hits_count = 0;
     for (const char *part = help, *end; *part; part = end + strspn(end, " ")) {
-        int x = (int)ceduo_utf8_width(ceduo_app_format(app, "%.*s", (int)(part - help), help)), action = 0;
-        size_t word = strcspn(part, " ");
+        int x = (int)ceduo_utf8_width(ceduo_app_format(app, "%.*s", (int)(part - help), help));
+        int key = ceduo_key_find(ceduo_app_format(app, "%.*s", (int)strcspn(part, " "), part));
+        bool text = app->popup->kind == POPUP_TEXT;
         end = strstr(part, "  ");
         end = end ? end : part + strlen(part);
-        while (action < ACTION_COUNT &&
-               (strncmp(ceduo_actions[action].word, part, word) != 0 || ceduo_actions[action].word[word]))
-            action++;
-        int key = action < ACTION_COUNT ? ceduo_actions[action].key : app->popup->kind == POPUP_TEXT ? K_ESCAPE : K_NONE;
+        key = key == K_NONE && text ? K_ESCAPE : key;
         int width = (int)ceduo_utf8_width(ceduo_app_format(app, "%.*s", (int)(end - part), part));
-        if (key < ' ')
+        if (key < (text ? K_SPECIAL : ' ')) /* "a letter" is no key */
             ceduo_app_add_hit(app, (struct hit){.area = {x, app->height - 1, width, 1}, .key = key});
     }
 }
@@ -358,9 +356,10 @@ void ceduo_screen_draw(struct app *app)
     app->pictures_count = app->hits_count = 0;
     app->drawn = true;
     if (app->width < WIDTH_MIN || app->height < HEIGHT_MIN) {
-        struct ceduo_area whole = {0, 0, app->width, app->height};
-        const char *text = ceduo_app_format(app, _("The window (%d x %d) is too small: at least %d x %d is needed. q quits."),
-                                            app->width, app->height, WIDTH_MIN, HEIGHT_MIN);
+        struct ceduo_area whole = {0, 0, app->width, app->cells->height};
+        const char *text =
+            ceduo_app_format(app, _("The window (%d x %d) is too small: at least %d x %d is needed. q quits."), app->width,
+                             app->cells->height, WIDTH_MIN, HEIGHT_MIN + app->cells->height - app->height);
         ceduo_app_draw_wrapped(app, whole, CEDUO_ROLE_WARN, text, 0);
         return;
     }
@@ -382,4 +381,5 @@ void ceduo_screen_draw(struct app *app)
     draw_bar(app);
     if (app->popup)
         ceduo_popup_draw(app);
+    ceduo_tour_draw(app);
 }

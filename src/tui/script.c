@@ -23,30 +23,6 @@ static enum script_end report_error(const char *path, size_t line, const char *w
     return SCRIPT_WRONG;
 }
 
-/* Return a key by name: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; otherwise K_NONE. */
-static int find_key(const char *name)
-{
-    static const struct {
-        const char *name;
-        int key;
-    } extra_keys[] = {{"Esc", K_ESCAPE}, {"Space", ' '}, {"Backspace", K_BACKSPACE},
-                      {"F8", K_F(8)},    {"F9", K_F(9)}, {"Ctrl-U", K_CTRL_U}};
-    uint32_t code;
-    size_t n = strlen(name);
-    if (n > 0 && ceduo_utf8_decode(name, n, &code) == n)
-        return (int)code;
-    for (int i = 0; i < ACTION_COUNT; i++) {
-        if (strcmp(ceduo_actions[i].word, name) == 0)
-            return ceduo_actions[i].key;
-        if (strcmp(ceduo_actions[i].word2, name) == 0)
-            return ceduo_actions[i].key2;
-    }
-    for (size_t i = 0; i < sizeof extra_keys / sizeof extra_keys[0]; i++)
-        if (strcmp(extra_keys[i].name, name) == 0)
-            return extra_keys[i].key;
-    return K_NONE;
-}
-
 /* Press a key. A search or preview ends before the next key. */
 static void press_key(struct app *app, int key)
 {
@@ -86,7 +62,7 @@ static enum script_end run_command(struct app *app, char *command, const char *p
         *rest++ = '\0';
     if (strcmp(command, "key") == 0) {
         for (char *name = strtok_r(rest, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
-            int key = find_key(name);
+            int key = ceduo_key_find(name);
             if (key == K_NONE)
                 return report_error(path, line, _("no such key"), name, CEDUO_FOREIGN_MAX);
             press_key(app, key);

@@ -196,7 +196,7 @@ static void set_handlers(void)
 
 static void fit_screen(struct app *app)
 {
-    if (app->width != COLS || app->height != LINES || !app->cells)
+    if (!app->cells || app->cells->width != COLS || app->cells->height != LINES)
         ceduo_app_resize(app, COLS, LINES);
 }
 
@@ -207,8 +207,8 @@ static void show_screen(struct app *app, bool colours)
     if (app->redraw)
         clearok(curscr, TRUE);
     app->redraw = false;
-    for (int y = 0; y < app->height; y++)
-        for (int x = 0; x < app->width; x++) {
+    for (int y = 0; y < app->cells->height; y++)
+        for (int x = 0; x < app->cells->width; x++) {
             uint32_t code = ceduo_cells_glyph(app->cells, x, y);
             const struct role_style *role_style = &role_styles[ceduo_cells_role(app->cells, x, y)];
             short colour = app->theme == 0 ? role_style->dark : app->theme == 1 ? role_style->light : -1;
@@ -438,7 +438,7 @@ static void run_loop(struct app *app, bool colours)
         }
         bool changed = handle_keys(app); /* also after a signal of a new size */
         changed |= ceduo_program_poll(app);
-        if (changed || app->redraw || n < 0 || app->width != COLS || app->height != LINES)
+        if (changed || app->redraw || n < 0 || app->cells->width != COLS || app->cells->height != LINES)
             show_screen(app, colours);
     }
 }

@@ -251,7 +251,7 @@ def test_bash():
         options = set(re.findall(r"--([\w-]+)", good("--help").out.split("\n\n")[0] + good("--help").out))
         offered = {w.removeprefix("--") for w in completed(place, program, "--")}
         expect(offered >= {"batch", "years", "find", "plot", "version"} and offered <= options, offered ^ options)
-        expect_equal(completed(place, program, "--to"), ["--tolerance"])
+        expect_equal(completed(place, program, "--to"), ["--tolerance", "--tour"])
         expect_equal(completed(place, program, "-f", ""), ["table", "csv", "json", "geojson"])
         expect_equal(completed(place, program, "--format", "=", "j"), ["json"])
         expect_equal(completed(place, program, "--format", "="), ["table", "csv", "json", "geojson"])

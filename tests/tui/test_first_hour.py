@@ -93,30 +93,20 @@ def test_sixty_keys():
         stand.has("3.333 shoots per stool")  # 40 shoots on 12 stools
 
 
-# A newcomer's first questions, on the paper's site unless a scene is named, with keys and the place of the answer.
-QUESTIONS = (
-    ("does it stop the rocks", "", "", "verdict", r"NO: in 1[89] of 20 years more than 50 of 1000 exceed 50 kJ; today \d+"),
-    ("how sure is that", "", "key 7", "body", r"current \S+ \d+ \d+–\d+ [^$]*Measure first: shoots: diameter, cm, ADS 1 \(dbh on more plots"),
-    ("which of two cuts", "", "key 5 a End Enter a End Up Up Up Enter g d", "body",
-     r"In years 1 to 25 'selection-coppice-cut' lets the fewest dangerous rocks through, as it does today"),
-    ("what wood it costs", "four-systems", "key 5", "body", r"m³/y\b[^$]*7 large \S+ .* 3\.7"),
-    ("how many must stay", "", "key 2 /\ntype trees\nkey Enter f Down Down Enter Enter Enter Enter Enter", "note",
-     r"no value from 75 to 7500 reaches the goal; nearest: 7500, .* [\d.]+ % \(goal: at most 5 %\)"),
-    ("the year after the cut", "four-systems", "key 6", "now", r"Year 1, just cut .*above 50 kJ +8\d\d"),
-    ("my own slope", "", "key n Enter\ntype line\nkey " + "Enter " * 8, "body", r"1 +15 +99 "),
-    ("my own stand", "", "key 2 c\n" + PLOT.replace("\n    key 6", ""), "body", r"Stand of belt 1: sample plot"),
-    ("a larger rock", "", "key 3 Down Enter\ntype .8\nkey Enter", "now", r"Rock 0\.8 m, 1046 kg"),
-    ("a report, as HTML", "", "wait idle\nkey w\ntype report\nkey " + "Enter " * 8, "note", r"written: ceduo\.html"),
+# Answers of the tour (test_tour.py) that need or write a file, which the tour does not.
+FILES = (
+    ("my own slope", "key n Enter\ntype line\nkey " + "Enter " * 8, "body", r"1 +15 +99 "),
+    ("a report, as HTML", "wait idle\nkey w\ntype report\nkey " + "Enter " * 8, "note", r"written: ceduo\.html"),
 )
 
 
-def test_ten_questions():
-    """A newcomer's first questions take at most 25 keys and have uncut answers on a screen of 80 x 24"""
-    for asked, scene, script, where, answer in QUESTIONS:
+def test_files():
+    """A slope from a CSV file, and a report, take at most 25 keys"""
+    for asked, script, where, answer in FILES:
         expect(keys_in(script) <= 25, f"{asked}: {keys_in(script)} keys")
         with Folder() as f:
             f.write("line.csv", "distance,elevation\n0,60\n15,30\n99,0\n")
-            screen = play(f.path, f"{script}\nwait idle\ndump", *([scene] if scene else []))[0].whole()
+            screen = play(f.path, f"{script}\nwait idle\ndump")[0].whole()
             expect(re.search(answer, " ".join(getattr(screen, where).split())), f"{asked}:", screen)
             expect(asked != "a report, as HTML" or "</html>" in (f.path / "ceduo.html").read_text(encoding="utf-8"), "the page")
 

@@ -58,12 +58,30 @@ def test_titles_and_bar():
             t.click("? help")
             t.sees("Keys", "from, m: where the belt", lacks=("? help",))
             t.press(2, 1)
-            t.wheel("from, m: where the belt", WHEEL_DOWN)
-            t.sees("▲▼", lacks=("from, m: where the belt",))
+            t.wheel("In this view", WHEEL_DOWN)
+            t.sees("▲▼", lacks=("In this view",))
             t.click("any other key")
             t.sees("? help", "Stand of belt 1")
         t.click("q quit")
         t.sees("READY>")
+
+
+def test_tour():
+    """In the tour a click on its lines goes on, one on the named key presses it; other clicks, the wheel and a paste do nothing"""
+    with Place() as place, Mouse(place) as t:
+        t.start("--tour", sees=("Tour 1/10", "? help"))
+        t.click("Tour 1/10")
+        t.sees("Line 2 is the answer")
+        t.click("Space goes on")
+        t.sees("Tour 2/10", "Space presses 7")
+        t.click("3 rock")
+        t.click("u undo")
+        t.click("67.5")
+        t.wheel("Belts of forest", WHEEL_DOWN)
+        t.text("\x1b[200~7\x1b[201~")
+        t.sees("nothing pasted: the tour types for you", "Space presses 7", "belt 1 of 2 · 3/42")
+        t.click("7 unce")
+        t.sees("The bar is the range", "90 % range", lacks=("nothing pasted",))
 
 
 def test_form():

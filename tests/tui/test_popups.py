@@ -294,7 +294,7 @@ def test_a_survey_that_asks():
     with Place() as place:
         place.write("bare.csv", "saggio;superficie;pendenza;tipo;diametro\n" + rows)
         for answer, per_ha in (("degrees", 10000 / 400 / math.cos(math.radians(80))), ("percent", 10000 / 400 / math.cos(math.atan(0.8)))):
-            asked, unanswered, given = place.play(f"""key 2
+            asked, unanswered, understood, given = place.play(f"""key 2
                 key p
                 type from a survey
                 key Enter
@@ -306,10 +306,31 @@ def test_a_survey_that_asks():
                 dump
                 type {answer}
                 key Enter
+                dump
+                key Enter
                 dump""")
             asked.whole().has("How to read the survey", "slopes are in", "degrees", "percent")
             unanswered.whole().has("How to read the survey")
+            understood.whole().has("bare.csv: 2 plots of 400 m², 2 trees", "Enter again takes this stand")
             given.lacks("How to read the survey").has(f"{per_ha:.4g}")
+
+
+def test_a_survey_understood():
+    """The files of a survey are listed with .csv first; the note is how the marked table is understood, or why it is refused"""
+    with Place() as place:
+        place.write("a-notes.txt", "plot;area_m2;slope_deg;kind;dbh_cm\n1;400;0;tree;20\n")
+        place.write("m-plots.csv", "plot;area_m2;slope_deg;kind;dbh_cm;note\n1;400;0;tree;20;x\n2;400;0;tree;22;y\n")
+        place.write("z-bad.CSV", "plot;area_m2;slope_deg;kind;dbh_cm\n1;400;0;tree\n")
+        (place.path / "folder").mkdir()
+        first, bad, text, folder, taken = place.play("key 2 p\ntype from a survey\nkey Enter\ndump\nkey Down\ndump\nkey Down\ndump\n"
+                                                     "key Down Down\ndump\nkey Home Enter\ndump")
+    names = re.findall(r"(m-plots\.csv|z-bad\.CSV|a-notes\.txt|folder/) ", re.sub(r".*search: _", "", first.popup))
+    expect_equal(names, ["m-plots.csv", "z-bad.CSV", "a-notes.txt", "folder/"], "files")
+    expect(re.match(r"m-plots\.csv: 2 plots of 400 m², 2 trees.*; not used: note", first.popup), first)
+    expect_in("z-bad.CSV:2", bad.popup)
+    expect(text.popup.startswith("a-notes.txt: 1 plot of 400 m²"), text)
+    expect(folder.popup.startswith("Columns: plot, area_m2"), folder)
+    taken.lacks("search:").has("stand set from the survey")
 
 
 def test_presets_in_view_3():
@@ -447,13 +468,14 @@ def test_notes_after_the_last_field():
 
 
 def test_help_field():
-    """? begins with the full explanation of the field under the cursor, if the line above the keys is too short."""
+    """? begins with the keys of the view and the full explanation of the field under the cursor."""
     line, helped = fast("key 2\nfind stools.per_ha\ndump\nkey ?\ndump", "paper-site")
     expect(line.note.endswith("…"), line.note)
     wide = fast("resize 300 24\nkey 2\nfind stools.per_ha\ndump", "paper-site")[0]
     expect_in("Table 1", wide.note, "the source")
-    expect(helped.popup.startswith(re.sub(" +", " ", wide.note) + " Figures and pictures follow every edit at once"), wide.note, helped)
-    expect(fast("key 4\nkey ?\ndump")[0].popup.startswith("Figures and pictures follow every edit at once"), "without a field")
+    keys = "In this view, 2 stand Enter edit p F5 stands c sample plot a add d Del delete "
+    expect(helped.popup.startswith(keys + re.sub(" +", " ", wide.note) + " Figures and pictures follow every edit at once"), wide.note, helped)
+    expect(re.match("In this view, 4 results Down j scroll w F6 export . next option Figures", fast("key 4\nkey ?\ndump")[0].popup), "no field")
 
 
 def test_help_scrolls():
@@ -465,6 +487,23 @@ def test_help_scrolls():
     expect_in("select text in the terminal", re.sub(r"\s+[│|]\n.?[│|]\s+", " ", text))
     expect_equal(pages[10].text, pages[0].text, "after g")
     pages[11].lacks("─Keys")
+
+
+def test_help_pages():
+    """In ? Space goes on by a page and keeps one line; / marks the next line with a word, N the one after it, from the end again."""
+    script = "key ?\ndump\nkey Space\ndump\nkey /\ntype trajectory\ndump\nkey Enter\ndump\nroles 0.txt\nkey N\ndump\nroles 1.txt\n" \
+             "key N\ndump\nroles 2.txt\nkey / Ctrl-U\ntype zzz\nkey Enter\ndump\nkey / Esc x\ndump"
+    with Place() as place:
+        first, second, typing, *found, missing, closed = place.play(script)
+        roles = [place.text(f"{i}.txt").split("\n") for i in range(3)]
+    lines = [[line[line.index("│") + 2:].rstrip("│ ") for line in s.lines[2:22]] for s in (first, second)]
+    expect_equal(lines[1][0], lines[0][-1], "the last line of a page is the first of the next")
+    typing.has("search: trajectory_", "Enter search  Esc cancel")
+    marked = [[screen.lines[i][2:] for i, line in enumerate(letters) if "xxx" in line[3:] and 1 < i < 22] for screen, letters in zip(found, roles)]
+    expect_equal([" ".join(lines).replace("│", "").split() for lines in marked],
+                 [[".", "next", "trajectory"], [",", "previous", "trajectory"], [".", "next", "trajectory"]], "the marked lines")
+    missing.has("'zzz' not found")
+    closed.lacks("─Keys")
 
 
 def test_contract_keys():

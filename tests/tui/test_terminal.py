@@ -348,7 +348,7 @@ def end_by(number, name, restores):
         else:
             sane(t)
         expect_equal(place.text("fast.yaml"), FAST, "the scene on disk")
-        t.start("fast.yaml", sees=("Unsaved changes were found", "unsaved changes of 20", ": fast, fast.yaml", "not now", "forget them"))
+        t.start("fast.yaml", sees=("Unsaved changes were found", "0 min ago: fast.yaml, fast", "not now", "delete some"))
         t.keys("Enter")
         t.sees("changes recovered")
         t.keys("2")
@@ -443,18 +443,23 @@ def test_no_memory():
     expect(kept > 0, "no edit was kept")
 
 
-def test_forget():
-    """Recoverable work can be discarded, and is not offered again."""
+def test_delete():
+    """Recoverable work can be deleted, and is not offered again."""
     with Place() as place, Tmux(place) as t:
         pid = t.start("fast.yaml")
         t.edit("1234")
         until("a copy of the unsaved work", lambda: left_behind(place))
         os.kill(pid, signal.SIGTERM)
         t.sees("READY>", lacks=("1 slope",))
-        t.start("fast.yaml", sees=("Unsaved changes were found", "forget them"))
-        t.keys("f")
-        t.sees("Belts of forest", lacks=("Unsaved changes were found",))
-        expect("* fast" not in t.screen(), "the forgotten work is there")
+        t.start("fast.yaml", sees=("Unsaved changes were found", "delete some"))
+        t.keys("d")
+        t.sees("Delete which unsaved changes?", "0 min ago: fast.yaml, fast", "none", "all of them")
+        t.keys("n")
+        t.sees("Unsaved changes were found")
+        expect_equal(len(left_behind(place)), 1, "copies after 'none'")
+        t.keys("d", "1")
+        t.sees("Belts of forest", lacks=("Unsaved changes were found", "Delete which"))
+        expect("* fast" not in t.screen(), "the deleted work is there")
         t.keys("q")
         t.sees("READY>", lacks=("1 slope",))
         expect_equal(left_behind(place), [], "copies")
@@ -478,8 +483,8 @@ def test_recover_twice():
     """Killed again before a choice: the work is still offered at the next start."""
     with Place() as place, Tmux(place) as t:
         leave_work(t, place)
-        kill(t, t.start("fast.yaml", sees=("Unsaved changes were found", "forget them")))
-        kill(t, t.start("fast.yaml", sees=("Unsaved changes were found", "forget them")))
+        kill(t, t.start("fast.yaml", sees=("Unsaved changes were found", "delete some")))
+        kill(t, t.start("fast.yaml", sees=("Unsaved changes were found", "delete some")))
 
 
 def test_recover_list():
@@ -492,9 +497,9 @@ def test_recover_list():
         until("a copy of the other work", lambda: len(left_behind(place)) == 2)
         kill(t, pid)
         today = time.strftime("%Y-%m-%d")
-        screen = t.start("fast.yaml", sees=("Unsaved changes were found", "forget all")) and t.screen()
-        rows = re.findall(rf"unsaved changes of {today} \d\d:\d\d: ([^│]+?) *│", screen)
-        expect_equal(rows, ["fast, fast.yaml", "the mill, other.yaml"], "this scene's first")
+        screen = t.start("fast.yaml", sees=("Unsaved changes were found", "delete some")) and t.screen()
+        rows = re.findall(rf"{today} \d\d:\d\d, 0 min ago: ([^│]+?) *│", screen)
+        expect_equal(rows, ["fast.yaml, fast", "other.yaml, the mill"], "this scene's first")
         t.keys("2")
         t.sees("changes recovered", "* the mill")
         t.keys("2")
@@ -503,15 +508,71 @@ def test_recover_list():
 
 
 def test_recover_escape():
-    """Esc at the offer of left work does not destroy it: only 'forget them' does."""
+    """Esc at the offer of left work does not destroy it: only 'delete some' does."""
     with Place() as place, Tmux(place) as t:
         leave_work(t, place)
-        t.start("fast.yaml", sees=("Unsaved changes were found", "forget them"))
+        t.start("fast.yaml", sees=("Unsaved changes were found", "delete some"))
         t.keys("Escape")
         t.sees("Belts of forest", lacks=("Unsaved changes were found",))
         t.keys("q")
         t.sees("READY>", lacks=("1 slope",))
-        t.start("fast.yaml", sees=("Unsaved changes were found", "forget them"))
+        t.start("fast.yaml", sees=("Unsaved changes were found", "delete some"))
+
+
+def write_copies(place, n):
+    """Write copies of n scenes that were never saved, the newest first: 'slope 1' of an hour ago, 'slope 2' of two hours ago …"""
+    folder = place.path / "state/ceduo"
+    folder.mkdir(parents=True, exist_ok=True)
+    for i in range(1, n + 1):
+        path = folder / f"{i:016x}-{i:016x}.yaml"
+        path.write_text("# unsaved work on \"a new scene\"\n" + FAST.replace("title: fast", f"title: slope {i}"))
+        os.utime(path, (time.time() - 3600 * i - 60,) * 2)
+
+
+def test_recover_all():
+    """A start without a scene offers every copy, also of other scenes and beyond the nine digits; a start with a scene does not"""
+    with Place() as place, Tmux(place) as t:
+        leave_work(t, place)
+        pid = t.start("", sees=("Unsaved changes were found", "0 min ago: fast.yaml, fast"))
+        kill(t, pid)
+        pid = t.start("options.yaml")
+        expect("Unsaved changes were found" not in t.screen(), "work on another scene")
+        t.keys("q")
+        t.sees("READY>", lacks=("1 slope",))
+        write_copies(place, 11)
+        screen = t.start("", sees=("Unsaved changes were found", "delete some")) and t.screen()
+        rows = re.findall(r"│ (.) +20[-\d]+ [\d:]+, (\d+ \S+ ago): ([^│]+?) *│", screen)
+        expect_equal([(key, name) for key, _, name in rows],
+                     [("1", "fast.yaml, fast")] + [("23456789   "[i], f"never saved, slope {i + 1}") for i in range(11)], "copies, the newest first")
+        expect_equal([age for _, age, _ in rows[1:]], [f"{i + 1} h ago" for i in range(11)], "ages")
+        t.keys("d", "3")
+        t.sees("Unsaved changes were found", "saved, slope 3 ", lacks=("saved, slope 2 ", "Delete which"))
+        t.keys("d", "End", "Up", "Up", "Enter")  # past 'all' and 'none'
+        t.sees("Unsaved changes were found", "saved, slope 10 ", lacks=("saved, slope 11 ", "Delete which"))
+        t.keys(*["Down"] * 9, "Enter")
+        t.sees("changes recovered", "* slope 10")
+        expect_equal(len(left_behind(place)), 10, "9 copies of 12, and that of the work that was taken up")
+
+
+def test_tour_and_left_work():
+    """The tour keeps no copy of its edits, and offers left work after its end"""
+    with Place() as place, Tmux(place) as t:
+        write_copies(place, 1)
+        t.start("--tour", sees=("Tour 1/10", "1 slope"))
+        t.keys(*["Space"] * 10)  # a stand is added as an option
+        t.sees("Tour 3/10", "simple-c", "* paper-site")
+        t.text("zzz")
+        t.tmux("resize-window", "-x", "100", "-y", "30")
+        t.sees("Tour 3/10")
+        expect_equal(len(left_behind(place)), 1, "copies during the tour")
+        t.keys("Escape")
+        t.sees("Unsaved changes were found", "never saved, slope 1", lacks=("Tour 3/10",))
+        t.keys("n")
+        t.sees("1 slope", "? help", lacks=("* paper-site", "Unsaved changes"))
+        t.keys("q")
+        t.sees("READY>", lacks=("1 slope",))
+        expect_equal(len(left_behind(place)), 1, "copies after the tour")
+        expect_in("cannot place the cursor", t.shell(f"TERM=dumb '{CEDUO}' --tour").replace("\n", ""))
 
 
 def test_two_at_once():
