@@ -78,7 +78,7 @@ def test_ten_questions():
             program, lines = split_screen(screens[i])
             expect_in(f" {i + 1}/10  ", lines[0])
             expect(re.search(answers[language == "it"], " ".join(getattr(program, where).split())), f"question {i + 1}, {language}:", screens[i])
-        screens[10].whole().lacks("/10 ", "* paper-site").has("paper-site", "? help" if language == "en" else "? aiuto")
+        screens[10].whole().lacks("/10 ", "* Test site", "* Sito").has("Test site" if language == "en" else "Sito", "? help" if language == "en" else "? aiuto")
 
 
 def test_keys_themselves():
@@ -113,7 +113,7 @@ def test_ends():
             own, = play(place.path, f"key {keys}\ndump", "--tour", "fast.yaml")
             own.whole().has("fast", "The tour has ended").lacks("/10 ", "* fast", "search:")
             after, = play(place.path, f"key {keys}\nkey 3\nwait idle\ndump", "--tour")
-            after.whole().has("paper-site", "512.3 kg").lacks("/10 ", "* paper-site")
+            after.whole().has("Test site of", "512.3 kg").lacks("/10 ", "* Test site")
 
 
 def test_first_key():
