@@ -171,8 +171,8 @@ static void print_plots(const struct arguments *a, const struct ceduo_scene *sce
     struct ceduo_picture picture = {.scene = scene,
                                     .snapshot = q->snapshot,
                                     .verdict = q->snapshot ? &q->verdict : NULL,
-                                    .years_ahead = years,
                                     .uncertainty = q->uncertainty.file ? &q->uncertainty : NULL,
+                                    .years_of_options = years,
                                     .control = ceduo_scene_last_control(scene)};
     size_t start = out->length;
     size_t options = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_ALL_OPTIONS ? 1 : scene->options_count;
@@ -203,7 +203,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
         q.envelopes = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS;
         q.trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0;
         q.request.run.alternative_energy = false;
-        q.request.years |= ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_YEARS;
+        q.request.years |= (ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_YEARS) != 0;
         status = ceduo_query_run(&q);
     }
     if (status == CEDUO_OK)

@@ -148,7 +148,7 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .stems = stems > 0 ? app->trajectory.stems : NULL,
                                   .stems_count = stems,
                                   .years = ceduo_live_years(&app->live, scene, app->option),
-                                  .years_ahead = find_years(app),
+                                  .years_of_options = find_years(app),
                                   .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
                                   .year = app->year};
 }

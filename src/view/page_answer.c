@@ -158,7 +158,7 @@ static void append_sampling(struct text *text, const struct ceduo_report *report
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_verdict *v = report->verdict;
-    unsigned long long rocks = (unsigned long long)ceduo_result_rocks(r);
+    unsigned long rocks = (unsigned long)ceduo_result_rocks(r);
     const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control];
     double today = 0, mean = 0;
     LOCAL_TEXT(error);
@@ -177,13 +177,17 @@ static void append_sampling(struct text *text, const struct ceduo_report *report
         const struct ceduo_measure m = ceduo_measure_exceeding(last_control(r), ceduo_result_wooded(r, 0, r->last_control));
         ceduo_text_append(&error, SPAN(m, m.lo, m.hi));
     } else if (mean > 0) {
-        ceduo_text_format(text, _("Sampling error: \xc2\xb1%.0f today (%llu rocks), \xc2\xb1%.0f over years (%llu each)."),
-                          ceil(1000 * today), rocks, ceil(1000 * mean), (unsigned long long)v->choices[0].rocks);
+        ceduo_text_format(text,
+                          ngettext("Sampling error: \xc2\xb1%.0f today (%lu rock), \xc2\xb1%.0f over years (%lu each).",
+                                   "Sampling error: \xc2\xb1%.0f today (%lu rocks), \xc2\xb1%.0f over years (%lu each).",
+                                   rocks),
+                          ceil(1000 * today), rocks, ceil(1000 * mean), (unsigned long)v->choices[0].rocks);
     } else {
         ceduo_text_format(&error, "\xc2\xb1%.0f", ceil(1000 * today));
     }
     if (error.length > 0)
-        ceduo_text_format(text, _("Sampling error (%llu rocks): %s."), rocks, error.bytes);
+        ceduo_text_format(text, ngettext("Sampling error (%lu rock): %s.", "Sampling error (%lu rocks): %s.", rocks), rocks,
+                          error.bytes);
 }
 
 /* Append the uncertainty of the best option, over the rotation if known. */

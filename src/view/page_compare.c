@@ -95,7 +95,10 @@ static const enum column column_sets[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
     [CEDUO_OPTIONS_RATES] = {{NAME, PERIOD, WEAK, MEDIUM, STRONG}, {NAME, PERIOD, WEAK, MEDIUM, STRONG}},
     [CEDUO_OPTIONS_RETURNS] = {{NAME, RETURN_1, RETURN_2, RETURN_3}, {NAME, RETURN_1, RETURN_2, RETURN_3}},
     [CEDUO_OPTIONS_OF_YEARS] = {{NAME, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M},
-                                {NAME, TODAY, ENERGY, MEAN_KJ, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M}}};
+                                {NAME, TODAY, ENERGY, MEAN_KJ, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN, PER_100M}},
+    [CEDUO_OPTIONS_REST] = {
+        {NAME, WORST_ADC, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING},
+        {NAME, ENERGY, TO_FIRST, CONTACT, FREE_RUN_SHARE, FREE_RUN, FAIL_CONTACT, FAIL_FREE_RUN, ROTATION, STANDING}}};
 
 /* ---- cells ---- */
 
@@ -405,7 +408,8 @@ void ceduo_page_options(struct ceduo_page *page, const struct ceduo_report *repo
         if (s.index && i >= first && i < end && (kind != CEDUO_OPTIONS_LAWS || s.wooded))
             add_option_row(page, set, &s, scales, i == cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
     }
-    if (kind != CEDUO_OPTIONS_TODAY && kind != CEDUO_OPTIONS_YEARS && kind != CEDUO_OPTIONS_PANE && kind != CEDUO_OPTIONS_LAWS)
+    if (kind != CEDUO_OPTIONS_TODAY && kind != CEDUO_OPTIONS_YEARS && kind != CEDUO_OPTIONS_REST &&
+        kind != CEDUO_OPTIONS_PANE && kind != CEDUO_OPTIONS_LAWS)
         add_option_row(page, set, &bare, scales, CEDUO_ROLE_TEXT, _("without forest"));
     for (size_t k = 0; set[k]; k++)
         if (set[k] == BAR) { /* the limit is the head of its bars */
@@ -465,13 +469,46 @@ void ceduo_page_shares(struct ceduo_page *page, const struct ceduo_report *repor
         ceduo_text_append_joined(text, "; ", _("years %u to %u"), years_ahead->window.first, years_ahead->window.last);
 }
 
-void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report)
+/* Append the tests that n options pass, all or none: a test with the same result for all options does not help to choose. */
+static void add_equal_tests(struct ceduo_page *page, const struct ceduo_result *r, const size_t passes[3], size_t n)
+{
+    size_t tests = r->wooded && !isnan(last_control(r)->accepted) ? 3 : 2, equal = 0, named = 0;
+    LOCAL_TEXT(names);
+    if (n == 0 && ceduo_result_last_index(r, 0)->contact == CEDUO_LIGHT_UNKNOWN)
+        return;
+    for (size_t k = 0; k < tests; k++)
+        equal += passes[k] == n;
+    for (size_t k = 0; k < tests; k++)
+        if (passes[k] == n) {
+            ceduo_text_append(&names, named == 0 ? "" : named + 1 == equal ? _(" and ") : ", ");
+            ceduo_text_append(&names, _(ceduo_light_names[k]));
+            named++;
+        }
+    if (equal > 0 && n > 0)
+        ceduo_page_para(page, CEDUO_PAGE_NOTE,
+                        ngettext("Today all options pass the test of %s: it does not distinguish them.",
+                                 "Today all options pass the tests of %s: they do not distinguish them.", equal),
+                        names.bytes);
+    else if (equal > 0)
+        ceduo_page_para(page, CEDUO_PAGE_NOTE,
+                        ngettext("Today no option passes the test of %s: it does not distinguish them.",
+                                 "Today no option passes the tests of %s: they do not distinguish them.", equal),
+                        names.bytes);
+}
+
+void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report, enum ceduo_comparison what)
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_verdict *v = report->verdict;
+    size_t best = ceduo_result_best(r, v);
     ceduo_page_para(page, CEDUO_PAGE_SECTION, _("Side by side, up to %s m"), LOCALIZED(last_control(r)->x_given));
-    ceduo_page_shares(page, report, false);
-    ceduo_page_options(page, report, CEDUO_OPTIONS_TODAY, r->last_control, SIZE_MAX, 0, SIZE_MAX);
+    if (what == CEDUO_COMPARE_REST)
+        ceduo_page_para(page, CEDUO_PAGE_CAPTION, "%s", _("Tests today, and years that fail them:"));
+    else if (what == CEDUO_COMPARE_ALL)
+        ceduo_page_shares(page, report, false);
+    if (what != CEDUO_COMPARE_WORDS)
+        ceduo_page_options(page, report, what == CEDUO_COMPARE_REST ? CEDUO_OPTIONS_REST : CEDUO_OPTIONS_TODAY, r->last_control,
+                           best, 0, SIZE_MAX);
     size_t n = r->scene->options_count, passes[3] = {0};
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
@@ -479,20 +516,15 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
         for (size_t k = 0; k < 3; k++)
             passes[k] += lights[k] == CEDUO_LIGHT_PASS;
     }
-    /* a test with the same result for all options does not help to choose */
-    for (size_t k = 0; k < (r->wooded && !isnan(last_control(r)->accepted) ? 3u : 2u); k++)
-        if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_LIGHT_UNKNOWN))
-            ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                            passes[k] == n ? _("Today all options pass the test of %s: it does not distinguish them.")
-                                           : _("Today no option passes the test of %s: it does not distinguish them."),
-                            _(ceduo_light_names[k]));
+    for (int all = 1; all >= 0; all--)
+        add_equal_tests(page, r, passes, all ? n : 0);
     if (!v)
         return;
     bool known = false;
-    if (ceduo_report_years_ahead(report, 0)) {
+    if (what == CEDUO_COMPARE_ALL && ceduo_report_years_ahead(report, 0)) {
         ceduo_page_para(page, CEDUO_PAGE_CAPTION, _("Over years %u to %u, counted from today:"), v->choices[0].window.first,
                         v->choices[0].window.last);
-        ceduo_page_options(page, report, CEDUO_OPTIONS_YEARS, r->last_control, SIZE_MAX, 0, SIZE_MAX);
+        ceduo_page_options(page, report, CEDUO_OPTIONS_YEARS, r->last_control, best, 0, SIZE_MAX);
     }
     for (size_t i = 0; v->choices[0].last_summary->years > 0 && i < v->n; i++) { /* limits of the yield model */
         known |= !isnan(v->choices[i].yield.cut_per_year);
@@ -602,5 +634,6 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_report *report)
     ceduo_page_para(
         page, CEDUO_PAGE_CAPTION, _("The same rocks at %s m: how many of 1000 %s, and the mean energy of those that arrive:"),
         LOCALIZED(last_control(r)->x_given), MEASURE_NAME(ceduo_measure_exceeding(last_control(r), NULL), CEDUO_PHRASE));
-    ceduo_page_options(page, report, CEDUO_OPTIONS_LAWS, r->last_control, SIZE_MAX, 0, SIZE_MAX);
+    size_t best = r->scene->options_count > 1 ? ceduo_result_best(r, report->verdict) : SIZE_MAX;
+    ceduo_page_options(page, report, CEDUO_OPTIONS_LAWS, r->last_control, best, 0, SIZE_MAX);
 }

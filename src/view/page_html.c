@@ -81,12 +81,12 @@ void ceduo_html_leaf(struct ceduo_html *html, const char *name, const char *text
 static const char style[] =
     "@page{size:A4;margin:10mm 13mm}\n"
     "*{box-sizing:border-box}\n"
-    "html{background:#fff;color:#1c1c1c;font:9pt/1.26 'Liberation "
+    "html{background:#fff;color:#1c1c1c;font:9pt/1.24 'Liberation "
     "Sans',Arial,Helvetica,sans-serif;-webkit-print-color-adjust:exact;"
     "print-color-adjust:exact}\n"
     "body{max-width:184mm;margin:0 auto}\n"
     "h1{font-size:17pt;line-height:1.2;margin:2mm 0 2mm;overflow-wrap:anywhere}\n"
-    "h2{font-size:11.5pt;line-height:1.2;margin:2.4mm 0 1mm;padding-bottom:.5mm;border-bottom:.3mm solid "
+    "h2{font-size:11.5pt;line-height:1.2;margin:2mm 0 1mm;padding-bottom:.5mm;border-bottom:.3mm solid "
     "#14532d;color:#14532d;"
     "overflow-wrap:anywhere}\n"
     "h3{font-size:10.5pt;margin:3mm 0 1mm;overflow-wrap:anywhere}\n"
@@ -96,8 +96,12 @@ static const char style[] =
     "p,li,dd{overflow-wrap:anywhere}\n"
     "p{margin:1mm 0}\n"
     ".question{font-size:12pt;font-weight:bold;margin:2mm 0 1.5mm}\n"
-    ".answer{border-left:1.2mm solid #14532d;background:#f1f5ee;padding:2mm 4mm;margin:0 0 3mm}\n"
-    ".answer p{font-size:10.5pt;margin:1mm 0}\n"
+    ".answer{border:.3mm solid #4a4a4a;border-left-width:2mm;background:#f3f3f3;padding:1.5mm 4mm;margin:0 0 2.5mm}\n"
+    ".answer.yes{border-color:#1f5c99;background:#e6f0fa}\n"
+    ".answer.no{border-color:#b04a00;background:#fdeee0;border-style:double;border-width:1mm 1mm 1mm 2mm}\n"
+    ".answer.depends{border-color:#4a4a4a;border-style:dashed;border-width:.5mm .5mm .5mm 2mm}\n"
+    ".answer p{font-size:10pt;margin:1mm 0}\n"
+    ".answer p:first-child{font-size:12pt;font-weight:bold}\n"
     ".detail{color:#4a4a4a;font-size:8.5pt}\n"
     ".warning{border-left:1mm solid #7a4a00;padding-left:2.5mm;color:#5c3800}\n"
     "dl{display:grid;grid-template-columns:max-content 1fr;gap:.5mm 4mm;margin:1mm 0}\n"
@@ -109,16 +113,19 @@ static const char style[] =
     "ul{margin:1mm 0;padding-left:5mm}\n"
     "table{border-collapse:collapse;width:100%;margin:1.2mm 0 2mm;font-size:8.25pt;line-height:1.18;"
     "font-variant-numeric:tabular-nums;break-inside:avoid}\n"
-    "caption{text-align:left;padding-bottom:1mm;color:#4a4a4a}\n"
+    "caption{text-align:left;padding-bottom:1mm;font-size:9pt;font-weight:bold}\n"
     "th,td{padding:.5mm 1.2mm;text-align:left;vertical-align:top;border-bottom:.2mm solid "
     "#c9cfc4;overflow-wrap:break-word}\n"
     "thead th,thead td{border-bottom:.35mm solid #4a4a4a;vertical-align:bottom;font-weight:bold}\n"
     "tbody th{font-weight:normal;min-width:45mm}\n"
-    ".n{text-align:right;white-space:nowrap}\n"
+    ".best th{font-weight:bold}\n"
+    ".best th,.best td{background:#e6f0fa}\n"
+    ".n,.w{white-space:nowrap}\n"
+    ".n{text-align:right}\n"
     "thead .n{white-space:normal}\n"
     "figure{margin:2mm 0;break-inside:avoid}\n"
     ".half{display:inline-block;width:49%;vertical-align:top}\n"
-    "figcaption{font-size:8.5pt;color:#4a4a4a;margin-top:1mm}\n"
+    "figcaption{font-size:9pt;font-weight:bold;margin-bottom:1mm}\n"
     "svg{display:block;width:100%;height:auto}\n"
     "pre{font:6pt/1.15 monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:1mm 0;padding:2mm "
     "3mm;background:#f5f5f2;"
@@ -168,17 +175,26 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
     for (size_t row = 0; row + n <= table->cells_count; row += n) {
         if (row <= n)
             ceduo_html_open(html, row == 0 ? "thead" : "tbody", NULL);
-        ceduo_html_open(html, "tr", NULL);
+        bool best = row > 0 && table->cells[row].role == CEDUO_ROLE_CURSOR;
+        ceduo_html_open(html, "tr", "class", best ? "best" : NULL, NULL);
         for (size_t i = 0; i < n; i++) {
             LOCAL_TEXT(text);
+            if (best && i == 0)
+                ceduo_text_append(&text, "\xe2\x96\xb8 ");
             if (row == 0 && table->cells[i].long_text.length > 0)
                 ceduo_page_powers(&text, table->cells[i].long_text.bytes);
             else
                 ceduo_page_write_cell(&text, &table->cells[row + i], CELL_WIDTH, false);
             const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
             const char *scope = name[1] != 'h' ? NULL : row == 0 ? "col" : "row";
+            /* numbers, and words of narrow columns, which do not wrap */
+            const struct ceduo_page_column *column = &table->columns[i];
+            bool word = row > 0 && i > 0 && column->width > 0 && !(column->flags & (COL_WRAP | COL_GROW));
             ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class",
-                            table->columns[i].width < 0 ? "n" : NULL, NULL);
+                            column->width < 0 ? "n"
+                            : word            ? "w"
+                                              : NULL,
+                            NULL);
         }
         ceduo_html_close(html);
         if (row == 0)
@@ -229,6 +245,9 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
                                     [CEDUO_PAGE_POINT] = {"dl", NULL},
                                     [CEDUO_PAGE_HEAD] = {"dl", "head"},
                                     [CEDUO_PAGE_ANSWER] = {"div", "answer"}};
+    /* class of an answer; the borders differ, too, for prints in grey */
+    static const char *const answers[CEDUO_ROLE_COUNT] = {
+        [CEDUO_ROLE_GOOD] = "answer yes", [CEDUO_ROLE_BAD] = "answer no", [CEDUO_ROLE_WARN] = "answer depends"};
     size_t pictures = 0;
     ceduo_html_open(html, "section", NULL);
     ceduo_text_append_char(html->text, '\n');
@@ -236,7 +255,8 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
         const char *list = lists[b->kind].element;
         bool follows = last && last->kind == b->kind, continues = b->next && b->next->kind == b->kind;
         if (list && !follows)
-            ceduo_html_open(html, list, "class", lists[b->kind].class, NULL);
+            ceduo_html_open(html, list, "class",
+                            b->kind == CEDUO_PAGE_ANSWER && answers[b->role] ? answers[b->role] : lists[b->kind].class, NULL);
         /* consecutive tables are halves of one table */
         if (b->kind == CEDUO_PAGE_TABLE && !follows && continues)
             ceduo_html_open(html, "div", "class", "pair", NULL);
@@ -246,8 +266,8 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
             char id[48];
             snprintf(id, sizeof id, "c%zu-p%zu", number, ++pictures);
             ceduo_html_open(html, "figure", "class", b->side_by_side ? "half" : NULL, NULL);
-            ceduo_svg_write(html, b->svg, id, ceduo_text_string(&b->text), ceduo_text_string(&b->description));
             ceduo_html_leaf(html, "figcaption", ceduo_text_string(&b->text), NULL);
+            ceduo_svg_write(html, b->svg, id, ceduo_text_string(&b->text), ceduo_text_string(&b->description));
             ceduo_html_close(html);
         } else if (b->kind != CEDUO_PAGE_CAPTION || !b->next || b->next->kind != CEDUO_PAGE_TABLE)
             write_block(html, b);

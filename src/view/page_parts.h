@@ -51,6 +51,7 @@ enum ceduo_options {
     CEDUO_OPTIONS_RATES,   /* rates of rocks, by intensity */
     CEDUO_OPTIONS_RETURNS, /* energies of return periods */
     CEDUO_OPTIONS_OF_YEARS,
+    CEDUO_OPTIONS_REST, /* columns of today and of the years that the short table lacks */
     CEDUO_OPTIONS_KINDS
 };
 void ceduo_page_options(struct ceduo_page *page, const struct ceduo_report *report, enum ceduo_options kind, size_t control,
@@ -61,11 +62,12 @@ void ceduo_page_shares(struct ceduo_page *page, const struct ceduo_report *repor
 void ceduo_page_return(struct ceduo_page *page, const struct ceduo_hazard *hazard, size_t i);
 
 /* Append the years of an option with their summary; the summary only; all options in one table with a row per year; all
- * options today and over the years. */
+ * options today and over the years, with all columns, with those that the short table lacks, or without tables. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
 void ceduo_page_years_all_options(struct ceduo_page *page, const struct ceduo_report *report);
-void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
+enum ceduo_comparison { CEDUO_COMPARE_ALL, CEDUO_COMPARE_REST, CEDUO_COMPARE_WORDS };
+void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report, enum ceduo_comparison what);
 
 /* Append a comparison of both energy laws; nothing if unknown. */
 void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_report *report);
@@ -93,6 +95,10 @@ void ceduo_page_fence_answer(struct ceduo_page *page, const struct ceduo_report 
 void ceduo_page_fence(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control);
 /* Append design values and their factors, if the scene requests them. */
 void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control);
+
+/* Append energies to compare with the limit of the last control: of the rocks of an option, of a car, and of the classes of
+ * fences. */
+void ceduo_page_energies(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
 
 /* Append warnings of the whole run and assumptions; assumptions only, with or without their places in the scene. */
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report);

@@ -16,6 +16,11 @@
 #define HALF_CELLS      46  /* cells of a picture of half width */
 #define WIDE_CELLS      112 /* cells of a wide picture with few rows */
 #define CROWDED_OPTIONS 4   /* max options of a page with all pictures */
+#define HEIGHT_ROWS     6   /* rows of the strip of heights below the slope */
+#define ENERGY_ROWS     8   /* rows of the strip of energies with the axis */
+#define PROFILE_ROWS    24  /* rows of the slope above the strips, */
+#define PAIR_ROWS       18  /* and of two slopes next to each other, */
+#define CROWDED_ROWS    12  /* also above the table of many options */
 
 static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int columns, int rows,
                         const struct ceduo_picture *picture, const char *description)
@@ -28,6 +33,35 @@ static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int colum
     ceduo_text_append(&block->description, description);
 }
 
+/* Append one picture of the slope with its trajectories and, if they are known, the heights and energies of the rocks below
+ * it, on one axis. */
+static void add_slope_picture(struct ceduo_page *page, struct ceduo_picture picture, const char *title, int columns, int rows)
+{
+    struct ceduo_svg *svg = ceduo_svg_create(columns, rows);
+    struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
+    struct ceduo_span span = {0};
+    int strips = picture.snapshot ? HEIGHT_ROWS + ENERGY_ROWS : 0;
+    struct ceduo_area area = {.width = columns, .height = rows - strips};
+    picture.paper = true;
+    picture.span = &span;
+    picture.no_x_axis = strips > 0;
+    ceduo_plot_draw(CEDUO_PLOT_PROFILE, canvas, &area, &picture);
+    picture.trajectories = columns == FULL_CELLS; /* in a smaller picture they would hide the curves */
+    area = (struct ceduo_area){.top = rows - strips, .width = columns, .height = HEIGHT_ROWS};
+    if (strips > 0 && span.width > 0)
+        ceduo_plot_draw(CEDUO_PLOT_HEIGHT, canvas, &area, &picture);
+    picture.no_x_axis = false;
+    area = (struct ceduo_area){.top = rows - ENERGY_ROWS, .width = columns, .height = ENERGY_ROWS};
+    if (strips > 0 && span.width > 0)
+        ceduo_plot_draw(CEDUO_PLOT_ENERGY, canvas, &area, &picture);
+    struct ceduo_page_block *block = ceduo_page_picture(page, svg, columns == HALF_CELLS);
+    ceduo_text_append(&block->text, title);
+    ceduo_text_append(&block->description,
+                      _("Side view of the slope with the forest, and below it on the same axis the height of the rocks above "
+                        "the ground and their energy, with and without forest. Thin lines: trajectories of some rocks. "
+                        "Upright lines: controls."));
+}
+
 static struct ceduo_picture make_picture(const struct ceduo_report *report, size_t option)
 {
     const struct ceduo_result *r = report->result;
@@ -37,6 +71,7 @@ static struct ceduo_picture make_picture(const struct ceduo_report *report, size
                                   .option = option,
                                   .control = ceduo_scene_last_control(r->scene),
                                   .years = report->years_ahead ? report->years_ahead[option] : NULL,
+                                  .years_of_options = report->years_ahead,
                                   .year = SIZE_MAX};
 }
 
@@ -44,6 +79,13 @@ static struct ceduo_picture make_picture(const struct ceduo_report *report, size
 static bool is_crowded(const struct ceduo_report *report)
 {
     return ceduo_report_has_hazard(report) && report->result->scene->options_count > CROWDED_OPTIONS;
+}
+
+/* True if the page has no space for the uncertainty over the years. */
+static bool is_long(const struct ceduo_report *report)
+{
+    size_t options = report->result->scene->options_count;
+    return options > CROWDED_OPTIONS || (options > 1 && ceduo_report_has_hazard(report));
 }
 
 /* ---- sections ---- */
@@ -56,6 +98,7 @@ static void add_uncertainty(struct ceduo_page *page, const struct ceduo_report *
         return;
     const struct ceduo_uncertainty_report *uncertainty = report->uncertainty;
     const struct ceduo_control *place = &r->scene->controls[r->last_control];
+    bool several = r->scene->options_count > 1;
     size_t option = ceduo_result_best(r, report->verdict);
     const struct ceduo_outcome o = ceduo_report_outcome(report, option, r->last_control);
     struct ceduo_measure m = ceduo_measure_exceeding(place, NULL); /* NaN value: the range is not widened */
@@ -68,23 +111,55 @@ static void add_uncertainty(struct ceduo_page *page, const struct ceduo_report *
     }
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
     const char *phrase = MEASURE_NAME(m, CEDUO_PHRASE);
-    ceduo_text_append(text, _("Some inputs are uncertain."));
-    if (r->scene->options_count > 1)
-        ceduo_text_append_joined(text, " ",
-                                 _("With '%s', in nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."),
+    if (several)
+        ceduo_text_append_joined(text, "", _("With '%s', in nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."),
                                  r->scene->options[option].name, m.p5, m.p95, phrase);
     else
-        ceduo_text_append_joined(text, " ", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.p5,
+        ceduo_text_append_joined(text, "", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.p5,
                                  m.p95, phrase);
-    if (o.over_years && o.uncertain && r->scene->blocks_count == 0)
+    if (!several && o.over_years && o.uncertain && r->scene->blocks_count == 0)
         ceduo_text_append_joined(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
                                  o.failing_hi, report->verdict->choices[option].last_summary->years);
-    if (o.answer == CEDUO_JUDGEMENT_DEPENDS)
+    if (!several && o.answer == CEDUO_JUDGEMENT_DEPENDS) /* with several options it is in the first sentence */
         ceduo_text_append_joined(text, " ", "%s",
                                  _("Some of these cases keep within the limit and some do not: the answer depends on "
                                    "uncertain inputs."));
     else if (o.answer == CEDUO_JUDGEMENT_YES || o.answer == CEDUO_JUDGEMENT_NO)
         ceduo_text_append_joined(text, " ", "%s", _("The answer is the same in all of these cases."));
+}
+
+#define HEADLINE 66 /* max columns of an answer above other sentences */
+
+/* Append the answer of the best of several options. */
+static void add_headline(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    size_t best = ceduo_result_best(r, report->verdict);
+    LOCAL_TEXT(answer);
+    if (r->scene->options_count < 2 || ceduo_page_is_unassessable(r) || !r->wooded || !report->verdict)
+        return;
+    const struct ceduo_subject s = ceduo_subject_find(report, best, r->last_control);
+    if (s.outcome.answer == CEDUO_JUDGEMENT_UNANSWERED)
+        return;
+    ceduo_words_answer(&answer, &s, HEADLINE);
+    ceduo_page_para(page, CEDUO_PAGE_ANSWER, _("%s, with the best option, '%s'"), ceduo_text_string(&answer),
+                    r->scene->options[best].name);
+}
+
+/* Give the box of the answer its role. */
+static void colour_answer(const struct ceduo_page *page, const struct ceduo_report *report)
+{
+    static const enum ceduo_role roles[] = {[CEDUO_JUDGEMENT_YES] = CEDUO_ROLE_GOOD,
+                                            [CEDUO_JUDGEMENT_NO] = CEDUO_ROLE_BAD,
+                                            [CEDUO_JUDGEMENT_NOT_DECIDED] = CEDUO_ROLE_WARN,
+                                            [CEDUO_JUDGEMENT_DEPENDS] = CEDUO_ROLE_WARN};
+    const struct ceduo_result *r = report->result;
+    if (r->scene->controls_count == 0)
+        return;
+    enum ceduo_judgement answer = ceduo_report_outcome(report, ceduo_result_best(r, report->verdict), r->last_control).answer;
+    for (struct ceduo_page_block *b = page->first; b; b = b->next)
+        if (b->kind == CEDUO_PAGE_ANSWER && answer < sizeof roles / sizeof roles[0])
+            b->role = roles[answer];
 }
 
 /* Append the head of the scene. Date and signature are always present. */
@@ -98,26 +173,30 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
             ceduo_text_append(ceduo_page_item(page, CEDUO_PAGE_HEAD, lines[i][0]), lines[i][1] ? lines[i][1] : "");
 }
 
-#define SLOPE_ROWS 19
-#define SLOPE_MIN  12 /* if tables of several options follow */
-#define STRIP_ROWS 10
-
+/* Append the slope with the best option, and next to it the present one, which is the first. */
 static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    struct ceduo_picture picture = make_picture(report, ceduo_result_best(report->result, report->verdict));
-    size_t options = report->result->scene->options_count;
-    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
-    ceduo_page_facts(page, report);
-    add_picture(page, CEDUO_PLOT_PROFILE, FULL_CELLS, options > 1 ? SLOPE_MIN : SLOPE_ROWS, &picture,
-                _("Side view of the slope with the forest. Thin lines: trajectories of some rocks. Upright lines: controls."));
-    picture.trajectories = true;
-    if (report->snapshot && !is_crowded(report))
-        add_picture(page, CEDUO_PLOT_HEIGHT, FULL_CELLS, STRIP_ROWS, &picture,
-                    _("Height above ground of the same trajectories along the slope, with the median and the 95th percentile, "
-                      "with and without forest."));
-    if (report->snapshot && report->result->scene->controls_count > 0 && options == 1)
-        add_picture(page, CEDUO_PLOT_ENERGY, FULL_CELLS, STRIP_ROWS, &picture,
-                    _("Mean and 95th percentile of the energy of passing rocks along the slope, with and without forest."));
+    const struct ceduo_scene *scene = report->result->scene;
+    const size_t present = 0, best = ceduo_result_best(report->result, report->verdict);
+    bool pair = best != present;
+    int columns = pair ? HALF_CELLS : FULL_CELLS;
+    int profile = scene->options_count > CROWDED_OPTIONS ? CROWDED_ROWS : pair ? PAIR_ROWS : PROFILE_ROWS;
+    int rows = profile + HEIGHT_ROWS + ENERGY_ROWS;
+    struct ceduo_picture picture = make_picture(report, best);
+    LOCAL_TEXT(title);
+    if (scene->options_count < 2)
+        ceduo_plot_title(&title, CEDUO_PLOT_PROFILE, &picture);
+    else
+        ceduo_text_format(&title, pair ? _("Recommended: %s") : _("Recommended, and present: %s"), scene->options[best].name);
+    picture.compared = pair ? &present : NULL;
+    add_slope_picture(page, picture, ceduo_text_string(&title), columns, rows);
+    if (!pair)
+        return;
+    picture = make_picture(report, present);
+    picture.compared = &best;
+    ceduo_text_cut(&title, 0);
+    ceduo_text_format(&title, _("Present: %s"), scene->options[present].name);
+    add_slope_picture(page, picture, title.bytes, columns, rows);
 }
 
 /* Append percentiles of the drawn option. A single option has them with its other figures. */
@@ -132,15 +211,17 @@ static void add_option_percentiles(struct ceduo_page *page, const struct ceduo_r
         ceduo_words_place(&place, &r->scene->controls[k]);
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_PLACE), _("At %s, with '%s'"), ceduo_text_string(&place),
                           r->scene->options[option].name);
-        ceduo_page_percentiles(page, r, option, k, true);
+        if (!is_crowded(report))
+            ceduo_page_percentiles(page, r, option, k, true);
         ceduo_page_fence(page, report, option, k);
         ceduo_page_design(page, report, option, k);
     }
 }
 
 #define YEARS_ROWS 10
+#define PANEL_ROWS 8 /* rows of the years of an option */
 
-/* Append the option that is best over the years. */
+/* Append the years: of one option, or of all options on one scale. */
 static void add_years(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_verdict *v = report->verdict;
@@ -151,26 +232,61 @@ static void add_years(struct ceduo_page *page, const struct ceduo_report *report
     struct ceduo_picture picture = make_picture(report, option);
     const struct ceduo_scene *scene = report->result->scene;
     ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("Year by year"));
-    if (scene->options_count > 1)
-        ceduo_page_para(page, CEDUO_PAGE_PLACE, "%s", scene->options[option].name);
-    ceduo_page_years_words(page, report->result, report->years_ahead[option]);
-    if (is_crowded(report))
-        return;
-    ceduo_page_para(page, CEDUO_PAGE_DETAIL, "%s",
-                    _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
+    if (report->result->wooded)
+        add_picture(page, CEDUO_PLOT_YEARS, WIDE_CELLS, 2 + PANEL_ROWS * ceduo_plot_years_down(scene->options_count), &picture,
+                    _("For each option a curve over the years: how many of 1000 rocks arrive with too much energy. Triangles "
+                      "are cuts. The dashed line is the limit."));
+    if (scene->options_count < 2) /* several options have tables */
+        ceduo_page_years_words(page, report->result, report->years_ahead[option]);
     size_t yields = 0;
     for (size_t i = 0; i < v->n; i++)
         yields += v->choices[i].yield.cut_per_year > 0;
-    bool both = yields > 1;
-    if (both)
+    if (!report->result->wooded) {
         ceduo_page_para(page, CEDUO_PAGE_DETAIL, "%s",
-                        _("Numbers beside points stand for the options in the order of the tables."));
-    add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF_CELLS : FULL_CELLS, YEARS_ROWS, &picture,
-                _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
-                  "arrive with too much energy, and below them which tests each year passes."));
-    if (both)
-        add_picture(page, CEDUO_PLOT_TRADEOFF, HALF_CELLS, YEARS_ROWS, &picture,
+                        _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
+        add_picture(page, CEDUO_PLOT_ROTATION, FULL_CELLS, YEARS_ROWS, &picture,
+                    _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 "
+                      "rocks arrive with too much energy, and below them which tests each year passes."));
+    } else if (yields > 1 && !ceduo_report_has_hazard(report)) { /* tables of frequencies need its space */
+        add_picture(page, CEDUO_PLOT_TRADEOFF, WIDE_CELLS, YEARS_ROWS, &picture,
                     _("A point for each option. To the right: volume felled per hectare and year. Upwards: rocks that pass."));
+    }
+}
+
+/* True if two warnings of stands are equal but for the stand and the numbers. */
+static bool is_like_warning(const char *a, const char *b)
+{
+    static const char *const number = "0123456789.,";
+    const char *p = strstr(a, ": "), *q = strstr(b, ": ");
+    while (p && q && *p && *p == *q) {
+        p += 1 + strspn(p + 1, number);
+        q += 1 + strspn(q + 1, number);
+    }
+    return p && q && *p == *q;
+}
+
+/* Append the warnings of all stands. Like ones are one sentence with the names of the other stands. */
+static void add_stand_warnings(struct ceduo_page *page, const struct ceduo_result *r)
+{
+    LOCAL_PAGE(all, page->width);
+    for (size_t i = 0; i < r->scene->options_count; i++)
+        ceduo_page_stand_warnings(&all, r, i);
+    for (const struct ceduo_page_block *b = all.first; b; b = b->next) {
+        const struct ceduo_page_block *a = all.first;
+        while (a != b && !is_like_warning(a->text.bytes, b->text.bytes))
+            a = a->next;
+        if (a != b)
+            continue;
+        LOCAL_TEXT(names);
+        for (a = b->next; a; a = a->next)
+            if (is_like_warning(a->text.bytes, b->text.bytes)) {
+                ceduo_text_append(&names, names.length > 0 ? "; " : "");
+                ceduo_text_append_n(&names, a->text.bytes, (size_t)(strstr(a->text.bytes, ": ") - a->text.bytes));
+            }
+        ceduo_page_para(page, CEDUO_PAGE_WARNING, "%s", b->text.bytes);
+        if (names.length > 0)
+            ceduo_text_append_joined(&page->last->text, " ", _("Likewise: %s."), names.bytes);
+    }
 }
 
 static void add_limits(struct ceduo_page *page, const struct ceduo_result *result)
@@ -246,18 +362,33 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     add_head(page, &scene->page);
     ceduo_page_question(page, report->result);
+    add_headline(page, report);
     ceduo_page_answer(page, report);
     add_uncertainty(page, report);
+    colour_answer(page, report);
     ceduo_page_certainty(page, report);
     ceduo_page_over_time(page, report);
     ceduo_page_fence_answer(page, report, false);
     add_slope(page, report);
+    size_t best = ceduo_result_best(report->result, report->verdict);
+    if (several && controls && !ceduo_page_is_unassessable(report->result)) {
+        ceduo_page_shares(page, report, true);
+        ceduo_page_options(page, report, CEDUO_OPTIONS_SHORT, report->result->last_control, best, 0, SIZE_MAX);
+    }
+    if (controls) {
+        add_years(page, report);
+        if (!is_crowded(report))
+            ceduo_page_energies(page, report, best);
+    }
+    ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
+    ceduo_page_facts(page, report);
     add_option_percentiles(page, report);
     if (several && controls) {
-        struct ceduo_picture picture = make_picture(report, 0);
-        ceduo_page_comparison(page, report);
-        if (!ceduo_report_has_hazard(report) &&
-            scene->options_count <= CROWDED_OPTIONS) /* the table of frequencies replaces it */
+        struct ceduo_picture picture = make_picture(report, best);
+        picture.option = SIZE_MAX; /* no row is reversed, as under a cursor */
+        ceduo_page_comparison(page, report, is_crowded(report) ? CEDUO_COMPARE_WORDS : CEDUO_COMPARE_REST);
+        /* the years of all options or the table of frequencies replace it */
+        if (!ceduo_report_years_ahead(report, 0) && !ceduo_report_has_hazard(report) && scene->options_count <= CROWDED_OPTIONS)
             add_picture(page, CEDUO_PLOT_COMPARE, WIDE_CELLS, 2 + (int)scene->options_count, &picture,
                         _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too "
                           "much energy, and their mean energy."));
@@ -277,17 +408,16 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     }
     if (controls) {
         if (report->uncertainty && report->uncertainty->answer)
-            ceduo_uncertainty_blocks(page, report->uncertainty, scene->options_count <= CROWDED_OPTIONS);
-        add_years(page, report);
+            ceduo_uncertainty_blocks(page, report->uncertainty, !is_long(report));
         add_hazard(page, report);
     }
     if (several)
         ceduo_page_rules(page, report->result);
     ceduo_page_notes(page, report);
-    for (size_t i = 0; several && i < scene->options_count; i++)
-        ceduo_page_stand_warnings(page, report->result, i);
+    if (several)
+        add_stand_warnings(page, report->result);
     add_limits(page, report->result);
-    if (scene->options_count > CROWDED_OPTIONS)
+    if (is_long(report))
         ceduo_page_note(
             page, _("Left out of this long page: the output of 'ceduo --batch', 'ceduo --plot' and 'ceduo --sensitivity'."));
     add_origin(page, report);

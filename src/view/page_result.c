@@ -469,6 +469,8 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
 
 /* ---- notes ---- */
 
+#define DIGITS "0123456789"
+
 static bool is_shown_note(const struct ceduo_report *report, const struct source_note *note)
 {
     return strcmp(note->kind, "assumed") == 0 && (report->years || !ceduo_note_years(note));
@@ -489,6 +491,50 @@ static void add_assumed_name(struct ceduo_page *page, const char *path, const ch
         ceduo_page_once(page, CEDUO_PAGE_ITEM, "%.*s", (int)strcspn(sentence, ";"), sentence);
 }
 
+/* A text in three parts: before, in, and after its first number. */
+struct split {
+    size_t before, number; /* lengths, bytes */
+    const char *after;
+};
+
+static struct split split_number(const char *text)
+{
+    struct split s = {.before = strcspn(text, DIGITS)};
+    s.number = strspn(text + s.before, DIGITS);
+    s.after = text + s.before + s.number;
+    return s;
+}
+
+/* True if two texts are equal, or differ in their first number only. */
+static bool is_like(const char *a, const char *b)
+{
+    struct split p = split_number(a), q = split_number(b);
+    return p.before == q.before && strncmp(a, b, p.before) == 0 && strcmp(p.after, q.after) == 0;
+}
+
+/* True if notes are listed together. `places`: one sentence lists the first numbers of like texts. */
+static bool is_listed_with(const struct source_note *a, const struct source_note *b, bool places)
+{
+    return strcmp(a->kind, "assumed") == 0 && (places ? is_like(a->text, b->text) : strcmp(a->text, b->text) == 0);
+}
+
+/* Append the first numbers of notes that are listed with `note`, "25, 13, 26", in the order of the files. */
+static void append_numbers(struct text *numbers, const struct source_note *notes, const struct source_note *note)
+{
+    if (!notes)
+        return;
+    append_numbers(numbers, notes->before, note);
+    const char *text = ceduo_in_language(notes->text, notes->text_it);
+    struct split s = split_number(text);
+    bool repeated = false;
+    for (const struct source_note *n = notes->before; n && !repeated; n = n->before)
+        repeated = is_listed_with(n, note, true) && strcmp(n->text, notes->text) == 0;
+    if (!is_listed_with(notes, note, true) || repeated)
+        return;
+    ceduo_text_append(numbers, numbers->length > 0 ? ", " : "");
+    ceduo_text_append_n(numbers, text + s.before, s.number);
+}
+
 /* Append notes in order; the list has the last first. */
 static void add_assumption(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note,
                            bool places)
@@ -499,7 +545,7 @@ static void add_assumption(struct ceduo_page *page, const struct ceduo_report *r
     const struct source_note *first_same = NULL; /* first in the files, last in the list; printed here with the count */
     size_t count = 0;
     for (const struct source_note *n = report->file->notes; n; n = n->before)
-        if (strcmp(n->kind, "assumed") == 0 && strcmp(n->text, note->text) == 0) {
+        if (is_listed_with(n, note, places)) {
             count++;
             first_same = n;
         }
@@ -518,9 +564,16 @@ static void add_assumption(struct ceduo_page *page, const struct ceduo_report *r
     if (option < scene->options_count)
         ceduo_text_append_joined(&where, ", ", "%s", scene->options[option].name);
     const char *place = where.length > 0 ? where.bytes : _("the scene");
+    const struct split s = split_number(sentence);
+    LOCAL_TEXT(numbers);
+    LOCAL_TEXT(merged);
+    append_numbers(&numbers, report->file->notes, note);
+    ceduo_text_append_n(&merged, sentence, s.before);
+    ceduo_text_append(&merged, ceduo_text_string(&numbers));
+    ceduo_text_append(&merged, s.after);
     if (count > 1)
-        ceduo_page_para(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", count - 1), sentence,
-                        place, count - 1);
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", count - 1),
+                        merged.bytes, place, count - 1);
     else
         ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s (%s)", sentence, place);
 }
@@ -580,7 +633,7 @@ static void add_full_page(struct ceduo_page *page, const struct ceduo_report *re
         ceduo_page_option(page, report, i, scene->options_count == 1);
     }
     if (scene->options_count > 1 && scene->controls_count > 0)
-        ceduo_page_comparison(page, report);
+        ceduo_page_comparison(page, report, CEDUO_COMPARE_ALL);
     for (size_t c = 0; c < scene->controls_count; c++)
         ceduo_page_hazard(page, report, c, c == 0);
     if (report->years && scene->options_count > 1 && scene->controls_count > 0)

@@ -29,8 +29,11 @@ static void add_title(struct ceduo_page *page, const struct ceduo_report *report
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_TITLE);
     LOCAL_TEXT(rocks);
     ceduo_text_format(&rocks, " \xe2\x80\x93 ");
-    ceduo_text_format(&rocks, s->blocks_count > 0 ? _("%llu rocks of many sizes") : _("%llu rocks of %s%s m (%s kg)"),
-                      (unsigned long long)ceduo_result_rocks(r), about, SIG(r->rock.mean_diameter, 2), SIG(r->rock.mass, 3));
+    unsigned long n = (unsigned long)ceduo_result_rocks(r);
+    ceduo_text_format(&rocks,
+                      s->blocks_count > 0 ? ngettext("%lu rock of many sizes", "%lu rocks of many sizes", n)
+                                          : ngettext("%lu rock of %s%s m (%s kg)", "%lu rocks of %s%s m (%s kg)", n),
+                      n, about, SIG(r->rock.mean_diameter, 2), SIG(r->rock.mass, 3));
     ceduo_text_append(text, title);
     for (char *end = rocks.bytes; *end && ceduo_utf8_width(title) + ceduo_utf8_width(rocks.bytes) > page->width;) {
         end = strrchr(rocks.bytes, '(');

@@ -309,7 +309,8 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
     size_t rest = 0;
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (r->file->scene.options_count > 1)
-        ceduo_page_para(page, CEDUO_PAGE_SENTENCE, _("Inputs that decide '%s':"), r->file->scene.options[f->option].name);
+        ceduo_page_para(page, f->fit.enough_points ? CEDUO_PAGE_CAPTION : CEDUO_PAGE_SENTENCE, _("Inputs that decide '%s':"),
+                        r->file->scene.options[f->option].name);
     if (!f->fit.enough_points) {
         ceduo_page_note(page, _("Too few points to rank the inputs; use more (--sensitivity=N)."));
         return;
@@ -423,6 +424,28 @@ void ceduo_uncertainty_light_words(struct text *text, const struct ceduo_uncerta
         ceduo_text_format(text, _("The test of %s depends on %s."), _(ceduo_light_names[light]), ceduo_text_string(&causes));
 }
 
+/* Append a light that changes in plausible cases, with all options that have the same causes, at the first of them. */
+static void add_light(struct ceduo_page *page, const struct ceduo_uncertainty_report *r, size_t option, size_t light)
+{
+    const struct ceduo_scene *s = &r->file->scene;
+    LOCAL_TEXT(sentence);
+    LOCAL_TEXT(options);
+    ceduo_uncertainty_light_words(&sentence, r, option, light);
+    for (size_t i = 0; sentence.length > 0 && i < s->options_count; i++) {
+        LOCAL_TEXT(compared);
+        ceduo_uncertainty_light_words(&compared, r, i, light);
+        if (strcmp(ceduo_text_string(&compared), sentence.bytes) != 0)
+            continue;
+        if (i < option)
+            return;
+        ceduo_text_append_joined(&options, options.length > 0 ? ", " : "", "'%s'", s->options[i].name);
+    }
+    if (sentence.length > 0 && s->options_count > 1)
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s: %s", options.bytes, sentence.bytes);
+    else if (sentence.length > 0)
+        ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", sentence.bytes);
+}
+
 /* ---- ranking of options ---- */
 
 #define CLEAR_MIN  0.95
@@ -473,7 +496,6 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
 {
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_control *c = &s->controls[ceduo_scene_last_control(s)];
-    bool several = s->options_count > 1;
     const char *place = c->name ? c->name : "";
     if (r->answer->main == CEDUO_UNCERTAINTY_EXCEED)
         ceduo_page_para(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m: rocks of 1000 with more than %g kJ"), place,
@@ -490,14 +512,9 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     ceduo_uncertainty_advice(&advice, r, figure, 3);
     if (advice.length > 0)
         ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
-    for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change in plausible cases */
-        LOCAL_TEXT(words);
-        ceduo_uncertainty_light_words(&words, r, i / 3, i % 3);
-        if (words.length > 0 && several)
-            ceduo_page_para(page, CEDUO_PAGE_ITEM, "'%s': %s", s->options[i / 3].name, words.bytes);
-        else if (words.length > 0)
-            ceduo_page_para(page, CEDUO_PAGE_ITEM, "%s", words.bytes);
-    }
+    for (size_t light = 0; light < 3; light++)
+        for (size_t i = 0; i < s->options_count; i++)
+            add_light(page, r, i, light);
     if (r->answer->rotation && all) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
         struct ceduo_uncertainty_report rotation = *r;
@@ -511,13 +528,16 @@ void ceduo_uncertainty_blocks(struct ceduo_page *page, const struct ceduo_uncert
     uint64_t rocks;
     make_measure(r, 0, &rocks);
     ceduo_page_para(page, CEDUO_PAGE_NOTE,
-                    _("Sampling error: %llu rocks; more rocks reduce it. 90 %% range: uncertain inputs; only measurements "
-                      "reduce it. Scenes computed: %llu."),
-                    (unsigned long long)rocks, (unsigned long long)r->answer->evaluations);
+                    ngettext("Sampling error: %lu rock; more rocks reduce it. 90 %% range: uncertain inputs; only measurements "
+                             "reduce it. Scenes computed: %llu.",
+                             "Sampling error: %lu rocks; more rocks reduce it. 90 %% range: uncertain inputs; only "
+                             "measurements reduce it. Scenes computed: %llu.",
+                             (unsigned long)rocks),
+                    (unsigned long)rocks, (unsigned long long)r->answer->evaluations);
     LOCAL_TEXT(points);
     ceduo_uncertainty_points(&points, r);
     if (points.length > 0)
-        ceduo_page_para(page, CEDUO_PAGE_NOTE, "%s", points.bytes);
+        ceduo_text_append_joined(&page->last->text, " ", "%s", points.bytes);
 }
 
 void ceduo_uncertainty_page(struct text *text, const struct ceduo_uncertainty_report *r, bool plain)

@@ -29,16 +29,18 @@ struct ceduo_picture {
     double from, to;                          /* part of the slope to show, m, relative; from == to: all */
     const struct ceduo_stem_encounter *stems; /* encountered by the selected rock, in its order; NULL: unknown */
     size_t stems_count;
-    const struct ceduo_years *years;        /* years of the option; NULL: not computed */
-    size_t year;                            /* index of the year under the cursor; out of range: none */
-    struct ceduo_years *const *years_ahead; /* one per option; NULL, or an element NULL: not computed */
-    const struct ceduo_verdict *verdict;    /* verdict on all options; NULL: not computed */
+    const struct ceduo_years *years;     /* years of the option; NULL: not computed */
+    size_t year;                         /* index of the year under the cursor; out of range: none */
+    const struct ceduo_verdict *verdict; /* verdict on all options; NULL: not computed */
     struct ceduo_span *span; /* columns of the slope: set by profile and rotation, used by strips; NULL: from the area */
     const struct ceduo_uncertainty_report *uncertainty; /* NULL: not computed */
-    bool no_x_axis;                                     /* strip with another strip below it */
     bool no_legend;                                     /* the options' names and numbers stand elsewhere */
-    bool trajectories;                                  /* the strip of heights shows each trajectory, too */
     bool bands;                                         /* strips shade what the forest lets through: mean to p95, p50 to p95 */
+    bool no_x_axis;                                     /* another picture of the slope is below */
+    bool trajectories;                                  /* the strip of heights shows each trajectory, too */
+    bool paper; /* for a printed page: as wide as the area, with the angles of the control and the limit, in plain words */
+    const size_t *compared;                      /* option whose values set the scales, too; NULL: none */
+    struct ceduo_years *const *years_of_options; /* one per option; NULL, or an element NULL: not computed */
 };
 
 /* The pictures: name, word, flags, title (%s: the control or the belt).
@@ -56,11 +58,12 @@ struct ceduo_picture {
     X(ENERGY, energy, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_CELLS, N_("energy of the rocks"))                                \
     X(HEIGHT, height, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_CELLS, N_("height of the rocks above the ground"))               \
     X(HISTOGRAM, histogram, CEDUO_PICTURE_ROCKS_RUN | CEDUO_PICTURE_PAGE, N_("energy at %s"))                                  \
-    X(ROTATION, rotation, CEDUO_PICTURE_RUN | CEDUO_PICTURE_YEARS, N_("year by year, up to %s"))                               \
+    X(ROTATION, rotation, CEDUO_PICTURE_YEARS_RUN, N_("year by year, up to %s"))                                               \
+    X(YEARS, years, CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_YEARS_RUN, N_("Over the years, up to %s"))                       \
     X(STAND, stand, 0, N_("%s, from above"))                                                                                   \
     X(COMPARE, compare, CEDUO_PICTURE_ALL_OPTIONS_RUN | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))              \
-    X(AHEAD, ahead, CEDUO_PICTURE_ALL_OPTIONS_RUN | CEDUO_PICTURE_YEARS, N_("Options over the years ahead, up to %s"))         \
-    X(TRADEOFF, tradeoff, CEDUO_PICTURE_ALL_OPTIONS_RUN | CEDUO_PICTURE_YEARS,                                                 \
+    X(AHEAD, ahead, CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_YEARS_RUN, N_("Options over the years ahead, up to %s"))         \
+    X(TRADEOFF, tradeoff, CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_YEARS_RUN,                                                 \
       N_("Protection and yield of the options, up to %s"))                                                                     \
     X(UNCERTAINTY, uncertainty, CEDUO_PICTURE_PAGE, N_("how sure it is at %s"))                                                \
     X(HAZARD, hazard, CEDUO_PICTURE_ALL_OPTIONS_RUN, N_("How often, and with how much, at %s"))                                \
@@ -73,8 +76,9 @@ enum ceduo_picture_flag {
     CEDUO_PICTURE_ALL_OPTIONS_RUN = CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_RUN,
     CEDUO_PICTURE_ROCKS = 1 << 3, /* shows rocks; without forest if none is simulated through it */
     CEDUO_PICTURE_ROCKS_RUN = CEDUO_PICTURE_ROCKS | CEDUO_PICTURE_RUN,
-    CEDUO_PICTURE_PAGE = 1 << 4, /* rows of text and bars */
-    CEDUO_PICTURE_YEARS = 1 << 5 /* requires the years */
+    CEDUO_PICTURE_PAGE = 1 << 4,  /* rows of text and bars */
+    CEDUO_PICTURE_YEARS = 1 << 5, /* requires the years of the options */
+    CEDUO_PICTURE_YEARS_RUN = CEDUO_PICTURE_YEARS | CEDUO_PICTURE_RUN
 };
 
 enum ceduo_plot {
@@ -108,6 +112,9 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
 /* Draw observed stops next to simulated ones; requires no run. `origin`: x of the slope's start in the user's coordinates. */
 void ceduo_plot_observed(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_observed_stops *stops,
                          double origin);
+
+/* Return the rows of small pictures of the years in a wide area. */
+int ceduo_plot_years_down(size_t options);
 
 /* Append one line that describes the picture. */
 void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *picture);

@@ -35,7 +35,7 @@ static enum ceduo_stroke get_curve_stroke(const struct ceduo_drawing *d, size_t 
 /* Read today and the years of an option; without its years the curve is empty. Caller frees. */
 static struct curve_ahead read_curve_ahead(const struct ceduo_drawing *d, size_t option)
 {
-    const struct ceduo_years *years = d->picture->years_ahead ? d->picture->years_ahead[option] : NULL;
+    const struct ceduo_years *years = d->picture->years_of_options ? d->picture->years_of_options[option] : NULL;
     const struct ceduo_run_snapshot *run = ceduo_snapshot_find(d->picture->snapshot, d->scene, option);
     const struct ceduo_arrivals *today = ceduo_plot_arrivals(run, d->picture->control);
     size_t count = years ? years->count : 0;

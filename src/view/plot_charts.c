@@ -192,7 +192,7 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
  * is the limit. */
 const char *ceduo_plot_fence(struct ceduo_drawing *d)
 {
-    static const struct chart_size size = {.axis = 6, .below = 1, .legend = 30, .width = 24, .height = 6};
+    static const struct chart_size size = {.axis = 6, .below = 2, .legend = 30, .width = 24, .height = 6};
     bool stands = d->control && ceduo_fence_stands(&d->control->fence);
     size_t items = d->wooded ? d->scene->options_count + 1 : 1;
     double max = 0;

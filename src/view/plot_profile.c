@@ -3,6 +3,7 @@
 
 #include "base/language.h"
 #include "plot.h"
+#include "report.h"
 
 /* ---- scale ---- */
 
@@ -56,6 +57,19 @@ static double find_tallest(const struct ceduo_stand *stand)
     return tallest;
 }
 
+/* Include the trajectories of an option and, unless a part of the slope is shown, its stems. */
+static void include_option(struct extent *r, const struct ceduo_drawing *d, size_t index)
+{
+    const struct ceduo_option *option = index < d->scene->options_count ? &d->scene->options[index] : NULL;
+    const struct ceduo_run_snapshot *run = ceduo_snapshot_find(d->picture->snapshot, d->scene, index);
+    for (size_t i = 0; run && i < run->trajectories_count; i++)
+        include_line(r, &run->trajectories[i]);
+    for (size_t i = 0; option && !is_part(d) && i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        include_ground(r, &d->scene->slope, belt->from, belt->to, find_tallest(&belt->stand));
+    }
+}
+
 /* Return the extent of ground, release, trajectories and stems. In a part of the slope stems may exceed the top. */
 static struct extent find_extent(const struct ceduo_drawing *d)
 {
@@ -64,14 +78,11 @@ static struct extent find_extent(const struct ceduo_drawing *d)
     include_ground(&r, &d->scene->slope, d->from, d->to, 0);
     if (release->x.mean >= r.x_lo && release->x.mean <= r.x_hi)
         widen_extent(&r, ceduo_slope_height(&d->scene->slope, release->x.mean) + release->height.mean);
-    for (size_t i = 0; d->run && i < d->run->trajectories_count; i++)
-        include_line(&r, &d->run->trajectories[i]);
+    include_option(&r, d, d->picture->option);
+    if (d->picture->compared)
+        include_option(&r, d, *d->picture->compared);
     if (d->picture->selected)
         include_line(&r, d->picture->selected);
-    for (size_t i = 0; d->option && !is_part(d) && i < d->option->belts_count; i++) {
-        const struct ceduo_belt *belt = &d->option->belts[i];
-        include_ground(&r, &d->scene->slope, belt->from, belt->to, find_tallest(&belt->stand));
-    }
     return r;
 }
 
@@ -85,8 +96,10 @@ static bool set_ranges(struct ceduo_frame *f, const struct ceduo_canvas *canvas,
     return true;
 }
 
-/* Return 1 if true scale uses the area well, otherwise a round factor that does. */
-static double height_factor(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, const struct extent *r)
+/* Return 1 if true scale uses the area well, otherwise a round factor that does. `fill`: the slope must be as wide as the
+ * frame. */
+static double height_factor(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, const struct extent *r,
+                            bool fill)
 {
     static const double round[] = {0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10};
     const int one = 9, n = sizeof round / sizeof round[0];
@@ -95,6 +108,8 @@ static double height_factor(const struct ceduo_frame *frame, const struct ceduo_
         return 1;
     double across = (r->x_hi - r->x_lo) / (f.x1 - f.x0), up = (r->y_hi - r->y_lo) / (f.y1 - f.y0);
     int i = one;
+    if (fill && across < 1)
+        return across > 0.1 ? floor(across * 10) / 10 : across;
     if (up < USED_MIN)
         while (i + 1 < n && round[i + 1] * up <= 1)
             i++;
@@ -106,9 +121,9 @@ static double height_factor(const struct ceduo_frame *frame, const struct ceduo_
 
 /* Fit the ranges: ground at the bottom, start of the slope at the left; drops empty columns. A part of the slope is always
  * true to scale. Return the factor of heights, NaN if the frame is too small. */
-static double set_scale(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct extent *r, bool part)
+static double set_scale(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct extent *r, bool part, bool fill)
 {
-    double factor = part ? 1 : height_factor(f, canvas, r);
+    double factor = part ? 1 : height_factor(f, canvas, r, fill);
     if (!set_ranges(f, canvas, r, factor))
         return NAN;
     int needed = (int)ceil(f->width * (r->x_hi - r->x_lo) / (f->x1 - f->x0));
@@ -177,25 +192,65 @@ static bool is_clear_space(const struct ceduo_canvas *canvas, const struct ceduo
     return is_clear;
 }
 
-/* Write the name of a control right or left of its rule, in the highest free row, if there is one. */
+/* Find the highest free row right or left of the rule of a control, of the first `rows`, and the first column of the text. False
+ * if none is free. */
+static bool find_rule_space(const struct ceduo_drawing *d, double x, const char *text, int rows, int *start, int *row)
+{
+    int column, width = ceduo_canvas_label_width(d->canvas, text);
+    if (!ceduo_frame_cell(&d->frame, d->canvas, x, d->frame.y0, &column, row))
+        return false;
+    for (int i = 0; i < 2 * rows && i < 2 * d->area.height; i++) {
+        *start = i % 2 ? column - 1 - width : column + 2;
+        *row = d->area.top + i / 2;
+        if (is_clear_space(d->canvas, &d->area, *start, *row, width))
+            return true;
+    }
+    return false;
+}
+
+/* Write the name of a control next to its rule, if there is space. */
 static void label_control(const struct ceduo_drawing *d, const struct ceduo_control *control)
 {
-    int column, row;
-    if (!ceduo_frame_cell(&d->frame, d->canvas, control->x, d->frame.y0, &column, &row))
-        return;
     LOCAL_TEXT(name);
+    int column, row, start, unused;
     ceduo_words_place(&name, control);
-    int width = ceduo_canvas_label_width(d->canvas, name.bytes);
-    for (int i = 0; i < 2 * NAME_ROWS && i < 2 * d->area.height; i++) {
-        int start = i % 2 ? column - 1 - width : column + 2, y = d->area.top + i / 2;
-        if (!is_clear_space(d->canvas, &d->area, start, y, width))
-            continue;
-        bool marked = d->picture->mark && fabs(*d->picture->mark - control->x) < 1e-9;
-        ceduo_canvas_label(d->canvas, start, y, marked ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_CONTROL, name.bytes);
-        if (i < 2 && ceduo_canvas_is_blank(d->canvas, column, y)) /* another name may occupy the cell */
-            ceduo_canvas_label(d->canvas, column, y, CEDUO_ROLE_CONTROL, "\xe2\x96\xbc");
-        break;
-    }
+    if (!find_rule_space(d, control->x, name.bytes, NAME_ROWS, &start, &row))
+        return;
+    bool marked = d->picture->mark && fabs(*d->picture->mark - control->x) < 1e-9;
+    ceduo_canvas_label(d->canvas, start, row, marked ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_CONTROL, name.bytes);
+    ceduo_frame_cell(&d->frame, d->canvas, control->x, d->frame.y0, &column, &unused);
+    if (row == d->area.top && ceduo_canvas_is_blank(d->canvas, column, row)) /* another name may occupy the cell */
+        ceduo_canvas_label(d->canvas, column, row, CEDUO_ROLE_CONTROL, "\xe2\x96\xbc");
+}
+
+/* Draw the line of an angle from a point to the control, and write its name with a sample of the line. */
+static void draw_angle(const struct ceduo_drawing *d, enum ceduo_stroke stroke, double x, double height, const char *name)
+{
+    const struct ceduo_slope *slope = &d->scene->slope;
+    const double xs[2] = {x, d->control->x},
+                 zs[2] = {ceduo_slope_height(slope, x) + height, ceduo_slope_height(slope, d->control->x)};
+    int start, row;
+    ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_TITLE, stroke, 2, xs, zs);
+    if (find_rule_space(d, d->control->x, name, d->area.height / 2, &start, &row))
+        ceduo_canvas_label(d->canvas, start, row, CEDUO_ROLE_TITLE, name);
+}
+
+/* Draw the reach angle and the shadow angle of the control. */
+static void draw_angles(const struct ceduo_drawing *d)
+{
+    const struct ceduo_release *release = &d->scene->release;
+    const struct ceduo_topography *t = d->bare_arrivals ? ceduo_topography_find(d->bare_arrivals) : NULL;
+    LOCAL_TEXT(reach);
+    LOCAL_TEXT(shadow);
+    if (!t)
+        return;
+    ceduo_text_append(&reach, "\xe2\x94\x80 \xe2\x94\x80 ");
+    ceduo_text_format(&reach, _("reach angle %.0f\xc2\xb0"), t->reach * DEGREES);
+    draw_angle(d, CEDUO_STROKE_DASHES, release->x.mean, release->height.mean, reach.bytes);
+    ceduo_text_append(&shadow, "\xe2\x94\x84\xe2\x94\x84\xe2\x94\x84 ");
+    ceduo_text_format(&shadow, _("shadow angle %.0f\xc2\xb0"), t->shadow * DEGREES);
+    if (!isnan(t->shadow))
+        draw_angle(d, CEDUO_STROKE_RULE, t->foot, 0, shadow.bytes);
 }
 
 /* Write the forest of the trajectories right-aligned in the row with the most free cells. */
@@ -263,8 +318,8 @@ static double set_profile_frame(struct ceduo_drawing *d, bool names, bool belts)
         d->frame = (struct ceduo_frame){.left = d->area.left + axis,
                                         .top = d->area.top + names,
                                         .width = d->area.width - axis,
-                                        .height = d->area.height - names - belts - 2};
-        factor = set_scale(&d->frame, d->canvas, &r, is_part(d));
+                                        .height = d->area.height - names - belts - (d->picture->no_x_axis ? 0 : 2)};
+        factor = set_scale(&d->frame, d->canvas, &r, is_part(d), d->picture->paper);
         if (isnan(factor))
             break;
         struct ceduo_frame given = ceduo_plot_user_frame(&d->frame, d->scene->slope.origin_x, d->scene->slope.origin_z);
@@ -281,7 +336,7 @@ static double set_profile_frame(struct ceduo_drawing *d, bool names, bool belts)
 static void mark_points(struct ceduo_drawing *d, const struct ceduo_slope *slope)
 {
     int column, row, last = -MARKS_APART;
-    if (slope->points <= slope->vertices || (int)slope->vertices > d->area.width / MARKS_APART)
+    if (slope->points <= slope->vertices || (int)slope->vertices > d->area.width / MARKS_APART || d->picture->paper)
         return;
     for (size_t i = 0; i < slope->vertices; i++)
         if (ceduo_frame_cell(&d->frame, d->canvas, slope->x[i], slope->z[i], &column, &row) && column - last >= MARKS_APART) {
@@ -323,9 +378,11 @@ const char *ceduo_plot_profile(struct ceduo_drawing *d)
         label_control(d, &d->scene->controls[c]);
     for (size_t c = 0; c < d->scene->controls_count; c++)
         ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_CONTROL, d->scene->controls[c].x);
-    if (names)
+    if (d->picture->paper)
+        draw_angles(d);
+    if (names && !d->picture->paper)
         label_forest(d);
-    ceduo_plot_axes(d, slope->origin_x, slope->origin_z, _("m"));
+    ceduo_plot_axes(d, slope->origin_x, slope->origin_z, d->picture->no_x_axis ? NULL : _("m"));
     if (belts)
         draw_belts(d);
     return NULL;

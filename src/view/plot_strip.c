@@ -42,9 +42,9 @@ struct strip {
 
 #define OFFSETS(heights, energies) offsetof(struct ceduo_envelope, heights), offsetof(struct ceduo_envelope, energies)
 
-/* Curves without forest only; both; both in a small area. Curves with forest are strokes, those without are dots, so that
+/* Curves without forest only; both; both in a small area; both on paper. Curves with forest are strokes, those without are dots, so that
  * they differ without colour. */
-static const struct content contents[3] = {
+static const struct content contents[4] = {
     {{N_("underside above the ground, m"), N_("energy, kJ")},
      {{{N_("max"), N_("p50")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, false, {OFFSETS(height.max, energy.p50)}},
       {{N_("p95"), N_("p95")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, {OFFSETS(height.p95, energy.p95)}},
@@ -60,6 +60,9 @@ static const struct content contents[3] = {
        false,
        {OFFSETS(height.p50, mean_energy)}}}},
     {{N_("underside p95, m"), N_("mean energy, kJ")},
+     {{{N_("without"), N_("without")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OFFSETS(height.p95, mean_energy)}},
+      {{N_("forest"), N_("forest")}, CEDUO_ROLE_FOREST, CEDUO_STROKE_PLAIN, false, {OFFSETS(height.p95, mean_energy)}}}},
+    {{N_("95 % fly below, m"), N_("mean energy, kJ")},
      {{{N_("without"), N_("without")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OFFSETS(height.p95, mean_energy)}},
       {{N_("forest"), N_("forest")}, CEDUO_ROLE_FOREST, CEDUO_STROKE_PLAIN, false, {OFFSETS(height.p95, mean_energy)}}}}};
 
@@ -111,22 +114,50 @@ static double read_curve(struct strip *s, const struct curve *curve, int to)
     return usual;
 }
 
-/* Read all curves and set the scale: to the 85th percentile, so that single peaks do not flatten the curves. False if no
- * rock passes. */
-static bool read_curves(struct strip *s, const struct content *content)
+/* Read all curves; return the largest 85th percentile, NaN if no rock passes. */
+static double read_curves(struct strip *s, const struct content *content)
 {
     double usual = NAN;
-    for (int i = 0; i < CURVES_MAX; i++) {
-        if (!content->curves[i].names[s->energy])
-            continue;
-        s->curves[s->count] = &content->curves[i];
-        usual = fmax(usual, read_curve(s, &content->curves[i], s->count));
-        s->count++;
-    }
+    for (int i = 0; i < CURVES_MAX; i++)
+        if (content->curves[i].names[s->energy]) {
+            s->curves[s->count] = &content->curves[i];
+            usual = fmax(usual, read_curve(s, &content->curves[i], s->count));
+            s->count++;
+        }
     for (int end = 0; s->has_band && end < 2; end++)
         usual = fmax(usual, read_curve(s, &band[end], CURVES_MAX + end));
-    bool cut = s->peak > 1.5 * 1.15 * usual && usual > 0;
-    double top = cut ? 1.15 * usual : 1.05 * fmax(s->peak, usual);
+    return usual;
+}
+
+static void free_curves(struct strip *s)
+{
+    for (int i = 0; i < CURVES_MAX + 2; i++)
+        free(s->y[i]);
+}
+
+/* Read the curves of the compared option; return the largest 85th percentile, and write the largest value. */
+static double read_compared(const struct strip *s, const struct content *content, double *peak)
+{
+    const size_t *compared = s->d->picture->compared;
+    struct ceduo_drawing drawing = *s->d;
+    struct strip strip = *s;
+    strip.d = &drawing;
+    drawing.run = compared ? ceduo_snapshot_find(s->d->picture->snapshot, s->d->scene, *compared) : NULL;
+    double usual = drawing.run ? read_curves(&strip, content) : NAN;
+    *peak = strip.peak;
+    free_curves(&strip);
+    return usual;
+}
+
+/* Read all curves and set the scale: to the 85th percentile, so that single peaks do not flatten the curves. False if no
+ * rock passes. */
+static bool set_strip_scale(struct strip *s, const struct content *content)
+{
+    double peak, usual = read_compared(s, content, &peak);
+    usual = fmax(usual, read_curves(s, content));
+    peak = fmax(peak, s->peak);
+    bool cut = peak > 1.5 * 1.15 * usual && usual > 0;
+    double top = cut ? 1.15 * usual : 1.05 * (s->has_band ? fmax(peak, usual) : peak);
     double max_accepted = s->energy ? 2 * top : 0; /* include accepted energies up to twice the top */
     for (size_t c = 0; c < s->d->scene->controls_count; c++) {
         double accepted = s->d->scene->controls[c].accepted * J_TO_KJ;
@@ -244,11 +275,13 @@ static void draw_caption(const struct strip *s, const struct content *content)
     LOCAL_TEXT(words);
     ceduo_text_append_joined(&words, "; ", _("%s up to %s %s, at %s m"), _(s->peak_name), SIG(s->peak, 3),
                              s->energy ? _("kJ") : _("m"), SIG(s->peak_x + s->d->scene->slope.origin_x, 3));
-    ceduo_canvas_draw_text(canvas, column, row, end - column, CEDUO_ROLE_WARN, words.bytes);
+    if (!s->d->picture->paper || ceduo_canvas_label_width(canvas, words.bytes) <= end - column)
+        ceduo_canvas_draw_text(canvas, column, row, end - column, CEDUO_ROLE_WARN, words.bytes);
 }
 
-#define FULL_ROWS  8  /* min rows for four curves */
-#define FULL_WIDTH 56 /* min columns, next to the names */
+#define LIMIT_COLUMNS 16 /* max columns of the limit */
+#define FULL_ROWS     8  /* min rows for four curves */
+#define FULL_WIDTH    56 /* min columns, next to the names */
 
 static const char *draw_strip(struct ceduo_drawing *d, bool energy)
 {
@@ -258,14 +291,14 @@ static const char *draw_strip(struct ceduo_drawing *d, bool energy)
     int names = span ? d->area.left + d->area.width - span->left - span->width : INT_MAX;
     bool small = d->area.height - 1 - 2 * !d->picture->no_x_axis < FULL_ROWS || d->area.width < FULL_WIDTH ||
                  names < name_columns(d->canvas, &contents[1], energy) - 1;
-    const struct content *content = &contents[!d->wooded ? 0 : small ? 2 : 1];
+    const struct content *content = &contents[!d->wooded ? 0 : d->picture->paper ? 3 : small ? 2 : 1];
     const char *reason = NULL;
     if (!d->run || !d->bare)
         return _("not computed yet");
     s.has_band = d->picture->bands && d->wooded;
     s.n = snapshot->cells;
     s.x = snapshot->cell_x;
-    if (!read_curves(&s, content))
+    if (!set_strip_scale(&s, content))
         reason = _("no rock passes here");
     set_strip_frame(&s, content);
     if (!reason && (d->frame.width < 2 || d->frame.height < 1 || !(d->frame.x1 > d->frame.x0)))
@@ -284,12 +317,15 @@ static const char *draw_strip(struct ceduo_drawing *d, bool energy)
             ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_CONTROL, x);
             if (energy)
                 ceduo_canvas_line(d->canvas, &d->frame, CEDUO_ROLE_BAD, x - reach, accepted, x + reach, accepted);
+            int column, row;
+            if (energy && d->picture->paper && ceduo_frame_cell(&d->frame, d->canvas, x - reach, accepted, &column, &row))
+                ceduo_plot_print(d->canvas, column - 1, row, -LIMIT_COLUMNS, CEDUO_ROLE_BAD, _("limit %s kJ%s"),
+                                 LOCALIZED(ceduo_words_accepted(&d->scene->controls[c])), "");
         }
         label_curves(&s);
         ceduo_plot_axes(d, d->scene->slope.origin_x, 0, d->picture->no_x_axis ? NULL : _("m"));
     }
-    for (int i = 0; i < CURVES_MAX + 2; i++)
-        free(s.y[i]);
+    free_curves(&s);
     return reason;
 }
 

@@ -58,9 +58,9 @@ static const struct paint {
     [CEDUO_ROLE_MEAN] = {"#111111", 2.2, "#f2f5f8", "bold"}, [CEDUO_ROLE_TRAJECTORY] = {"#8a1c7c", 2, "#e08ce0", "bold"},
     [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, "#7ec46b", NULL},   [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, "#7ec46b", NULL},
     [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, "#7ec46b", NULL},   [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, "#f2777a", NULL},
-    [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, "#8fd97a", "bold"}, [CEDUO_ROLE_BAD] = {"#a3161c", 2, "#ff8a85", "bold"},
+    [CEDUO_ROLE_GOOD] = {"#1f5c99", 1.6, "#8fd97a", "bold"}, [CEDUO_ROLE_BAD] = {"#b04a00", 2, "#ff8a85", "bold"},
     [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, "#d9b45b", NULL},   [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, "#56b6c2", NULL},
-    [CEDUO_ROLE_FOREST] = {"#14532d", 2, "#7ec46b", NULL},   [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, "#d6dbe1", NULL}};
+    [CEDUO_ROLE_FOREST] = {"#123f73", 2, "#7ec46b", NULL},   [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, "#d6dbe1", NULL}};
 
 /* ---- paths ---- */
 

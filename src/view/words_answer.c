@@ -148,8 +148,11 @@ void ceduo_words_judgement_reason(struct text *text, const struct ceduo_result *
         ceduo_text_append_joined(text, " ", _("%llu rocks were still moving when the simulation stopped; they may arrive."),
                                  (unsigned long long)ceduo_rocks_unfinished(shown));
     else if (judgement == CEDUO_JUDGEMENT_NOT_DECIDED)
-        ceduo_text_append_joined(text, " ", _("%llu rocks are too few to decide; simulate more."),
-                                 (unsigned long long)ceduo_rocks_released(shown));
+        ceduo_text_append_joined(text, " ",
+                                 ngettext("%lu rock is too few to decide; simulate more.",
+                                          "%lu rocks are too few to decide; simulate more.",
+                                          (unsigned long)ceduo_rocks_released(shown)),
+                                 (unsigned long)ceduo_rocks_released(shown));
     else if (also_bare)
         ceduo_text_append_joined(text, " ", "%s", _("The slope meets the limit even without forest."));
 }

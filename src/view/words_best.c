@@ -78,8 +78,11 @@ void ceduo_words_years_summary(struct text *text, const struct ceduo_result *r, 
 void ceduo_words_year_numbering(struct text *text, uint64_t rocks)
 {
     if (rocks > 0)
-        ceduo_text_format(text, _("Years are counted from today, with %llu rocks in each; the worst is that of these years."),
-                          (unsigned long long)rocks);
+        ceduo_text_format(text,
+                          ngettext("Years are counted from today, with %lu rock in each; the worst is that of these years.",
+                                   "Years are counted from today, with %lu rocks in each; the worst is that of these years.",
+                                   (unsigned long)rocks),
+                          (unsigned long)rocks);
     else
         ceduo_text_append(text, _("Years are counted from today."));
 }
@@ -166,8 +169,6 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 
 /* ---- other energy law ---- */
 
-#define REVERSALS_MAX 3 /* max pairs that are named */
-
 void ceduo_words_alternative_law(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
     const struct ceduo_alternative_energy *o = &r->options[option].alternatives[control];
@@ -202,31 +203,37 @@ static double get_share(const struct ceduo_result *r, size_t option, bool by_alt
            ceduo_share_judged(by_alternative_law ? other_arrivals : ceduo_result_wooded(r, option, r->last_control)).mean;
 }
 
+/* True if the order of an option and another one depends on the energy law. */
+static bool is_reversed(const struct ceduo_result *r, const struct ceduo_verdict *v, size_t option)
+{
+    bool reversed = false;
+    for (size_t i = 0; i < v->reversals_count && !reversed; i++) {
+        size_t a = v->reversals[i].better, b = v->reversals[i].worse;
+        reversed = (a == option || b == option) && !isnan(get_share(r, a, true) + get_share(r, b, true));
+    }
+    return reversed;
+}
+
 void ceduo_words_rank_reversals(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_sentence_sink *sink,
                                 void *context)
 {
-    for (size_t i = 0; i < v->reversals_count; i++) {
-        size_t a = v->reversals[i].better, b = v->reversals[i].worse, remaining = v->reversals_count - i;
-        LOCAL_TEXT(sentence);
-        if (isnan(get_share(r, a, true) + get_share(r, b, true))) /* not computed yet */
+    LOCAL_TEXT(options);
+    LOCAL_TEXT(sentence);
+    const char *law = "";
+    size_t n = 0;
+    for (size_t i = 0; i < v->n; i++) {
+        if (!is_reversed(r, v, i))
             continue;
-        if (i >= REVERSALS_MAX) {
-            ceduo_text_format(&sentence,
-                              ngettext("The order of %zu other pair of options depends on the energy law, too.",
-                                       "The order of %zu other pairs of options depends on the energy law, too.", remaining),
-                              remaining);
-            i = v->reversals_count;
-        } else {
-            bool stems = r->options[a].alternatives[r->last_control].stems;
-            const struct ceduo_alternative_energy *o = &r->options[stems ? a : b].alternatives[r->last_control];
-            ceduo_text_format(&sentence,
-                              _("Ranking of '%s' and '%s' depends on the energy law. By the law of the scene %.0f and %.0f of "
-                                "1000, by %s %.0f and %.0f."),
-                              NAME_OF(&r->scene->options[a]), NAME_OF(&r->scene->options[b]), get_share(r, a, false),
-                              get_share(r, b, false), ceduo_words_law(ceduo_energy_words.names[o->model]),
-                              get_share(r, a, true), get_share(r, b, true));
-        }
-        if (sentence.bytes)
-            sink(context, sentence.bytes);
+        const struct ceduo_alternative_energy *o = &r->options[i].alternatives[r->last_control];
+        ceduo_text_append_joined(&options, n > 0 ? "; " : "", _("'%s' %.0f and %.0f"), NAME_OF(&r->scene->options[i]),
+                                 get_share(r, i, false), get_share(r, i, true));
+        law = o->stems ? ceduo_words_law(ceduo_energy_words.names[o->model]) : law;
+        n++;
     }
+    if (n == 0)
+        return;
+    ceduo_text_format(&sentence,
+                      _("The order of %zu options depends on the energy law. Of 1000 by the law of the scene, and by %s: %s."),
+                      n, law, options.bytes);
+    sink(context, sentence.bytes);
 }

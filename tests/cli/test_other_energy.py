@@ -98,8 +98,8 @@ def test_order():
     selection, reserves = shares
     expect(selection[0] > reserves[0] and selection[1] < reserves[1], "the order turns round", shares)
     page = " ".join(good(*WHOLE, "-n", 10000, FOUR, *TWO_CUTS).out.split())
-    expect_in("Ranking of 'large reserves, just cut' and 'selection coppice, just cut' depends on the energy law. By the law of the "
-              f"scene {reserves[0]} and {selection[0]} of 1000, by dorren {reserves[1]} and {selection[1]}.", page)
+    expect_in("The order of 2 options depends on the energy law. Of 1000 by the law of the scene, and by dorren: "
+              f"'selection coppice, just cut' {selection[0]} and {selection[1]}; 'large reserves, just cut' {reserves[0]} and {reserves[1]}.", page)
     alike = good(*WHOLE, "-n", 2000, FOUR, "--option", "simple coppice, 25 years", "--option", "simple coppice, just cut").out
     expect("depends on the energy law" not in " ".join(alike.split()), alike)
 

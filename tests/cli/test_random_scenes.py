@@ -69,7 +69,7 @@ def kinds_of_pictures():
     """Return the names from the program's message about an unknown picture, except those of uncertainty and of a rotation,
     which take up to thousands of runs."""
     said = ceduo("--plot", "-", "paper-site").err
-    return [kind for kind in re.search(r"one of: (.*)", said)[1].split(", ") if kind not in ("uncertainty", "tradeoff")]
+    return [kind for kind in re.search(r"one of: (.*)", said)[1].split(", ") if kind not in ("uncertainty", "tradeoff", "years")]
 
 
 # ---- numbers ----

@@ -14,8 +14,8 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, INPUT, OUTPUT, PROFILES, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good,  # noqa: E402
-                     run_all, scene)
+from harness import (CEDUO, INPUT, OUTPUT, PROFILES, USAGE, Folder, belt, ceduo, expect, expect_equal, expect_in,  # noqa: E402
+                     good, run_all, scene, wooded_scene)
 
 FEW = ("-n", 60, "-s", "uncertainty=none", "-j", 2)
 UNCERTAINTY = ("-n", 60, "-s", "uncertainty=[{path: rock.density_kg_m3, lo: 2400, hi: 2750}]", "--sensitivity=20", "-j", 2)
@@ -234,21 +234,185 @@ def contrast(colour, opacity=1.0):
     return 1.05 / (.2126 * linear[0] + .7152 * linear[1] + .0722 * linear[2] + .05)
 
 
+def find_pictures(text):
+    """Return the pictures by title."""
+    return dict(zip(re.findall(r"<figcaption>(.*?)</figcaption>", text), re.findall(r"<svg.*?</svg>", text, re.S), strict=True))
+
+
+def find_tables(text):
+    """Return each table as caption, heads and rows of cells; a row has its class first."""
+    found = []
+    for table in re.findall(r"<table>(.*?)</table>", text, re.S):
+        caption = re.search(r"<caption>(.*?)</caption>", table)
+        rows = [[kind or ""] + re.findall(r"<t[hd][^>]*>([^<]*)</t", row)
+                for kind, row in re.findall(r'<tr(?: class="(\w+)")?>(.*?)</tr>', table, re.S)]
+        found.append((html.unescape(caption[1]) if caption else "", rows[0][1:], [[html.unescape(c) for c in row] for row in rows[1:]]))
+    return found
+
+
 def test_trajectories():
-    """Trajectories are drawn on the slope, and separately as heights above ground; every line prints well in black and white"""
+    """Trajectories are drawn on the slope and as heights above ground; every line prints well in black and white"""
     text, page = report("paper-site", few=("-n", 200, "-s", "uncertainty=none"))
-    titles = re.findall(r"<figcaption>(.*?)</figcaption>", text)
-    pictures = dict(zip(titles, re.findall(r"<svg.*?</svg>", text, re.S), strict=True))
-    for what in ("slope, forest, and trajectories", "height of the rocks above the ground"):
-        title = next(t for t in titles if what in t)
-        ways = re.search(r'<path[^>]* d="([^"]*)" stroke-opacity=', pictures[title])
-        expect(ways and ways[1].count("M") >= 70, title, ways and ways[1].count("M"))
+    title = next(t for t in find_pictures(text) if "slope, forest, and trajectories" in t)
+    ways = re.search(r'<path[^>]* d="([^"]*)" stroke-opacity=', find_pictures(text)[title])
+    expect(ways and ways[1].count("M") >= 140, "80 trajectories twice", title, ways and ways[1].count("M"))
     for line in re.findall(r"<path[^>]*>", text):
         colour, width = re.search(r'stroke="(#\w+)"', line), re.search(r'stroke-width="([\d.]+)"', line)
         opacity = re.search(r'stroke-opacity="([\d.]+)"', line)
         if colour:
             expect(contrast(colour[1], float(opacity[1]) if opacity else 1.0) >= 3, "too pale", line[:120])
             expect(float(width[1]) >= 0.8, "too thin", line[:120])
+
+
+def read_axes(picture):
+    """Return the left axes as x, top and bottom, the bottom axes as x0, x1, and the labels at the left by y."""
+    path = next(p for p in re.findall(r' d="([^"]*)"/>', picture) if re.match(r"M[\d.]+ [\d.]+[VH]", p))
+    left = [tuple(map(float, m)) for m in re.findall(r"M([\d.]+) ([\d.]+)V([\d.]+)", path)]
+    bottom = [tuple(map(float, m)) for m in re.findall(r"M([\d.]+) [\d.]+H([\d.]+)", path)]
+    labels = re.findall(r'<text x="([\d.]+)" y="([\d.]+)"[^>]*text-anchor="end">([^<]*)</text>', picture)
+    return left, bottom, [(float(y), label) for _, y, label in labels]
+
+
+def check_pair(scene):
+    """The best option and the present one, which is the first, stand beside each other with equal axes and scales"""
+    options = good("-b", "-f", "json", *FEW, scene).json()[0]["options"]
+    shares = {o["name"]: (o["window"] or {"mean": o["controls"][-1]["wooded"]["exceed_probability"]})["mean"] for o in options}
+    best, present = min(shares, key=shares.get), options[0]["name"]
+    expect(best != present, shares)
+    pair = find_pictures(report(scene)[0])
+    axes = [read_axes(pair[title]) for title in (f"Recommended: {best}", f"Present: {present}")]
+    expect_equal(axes[0], axes[1], "axes and scales of the two pictures")
+    expect_equal((len(axes[0][0]), len({x for x, *_ in axes[0][0]}), len(axes[0][1])), (3, 1, 1), "axes")
+    expect(axes[0][1][0][1] >= 45 * 8, "as wide as the picture of 46 cells", axes)
+
+
+def test_one_axis():
+    """Slope, heights and energies have one x axis and one width; the best option stands beside the present one on one scale"""
+    text, _ = report("paper-site")
+    left, bottom, _ = read_axes(find_pictures(text)["current: slope, forest, and trajectories"])
+    expect_equal((len(left), len({x for x, *_ in left}), len(bottom)), (3, 1, 1), "axes")
+    expect(bottom[0][1] >= 91 * 8, "as wide as the picture of 92 cells", bottom)
+    tall = [{"per_ha": 900, "dbh_m": 0.4, "height_m": 40, "volume_m3": 2}]
+    with Folder() as f:
+        check_pair(f.write("tall.yaml", wooded_scene(forest=None, options=[{"name": "low", "forest": [belt(10, 95)]},
+                                                                           {"name": "tall", "forest": [belt(10, 95, trees=tall)]}])))
+    check_pair("four-systems")
+    alone = report("--option", "coppice with standards", "--option", "coppice with standards, just cut", "four-systems")[0]
+    expect_in("Recommended, and present: coppice with standards", list(find_pictures(alone)), "no second picture")
+
+
+def test_angles():
+    """The picture of the slope shows reach and shadow angle of the control, each as a line that ends there"""
+    for scene in ("paper-site", "road-below"):
+        angles = good("-b", "-f", "json", *FEW, scene).json()[0]["options"][0]["controls"][0]["topography"]
+        picture = next(iter(find_pictures(report(scene)[0]).values()))
+        words = html.unescape(" ".join(re.findall(r"<text[^>]*>([^<]*)</text>", picture)))
+        for name in ("reach", "shadow"):
+            expect_in(f"{name} angle {angles[f'{name}_angle_deg']:.0f}°", words)
+        ends = []
+        for dashes in ("12 12", "4 4"):  # the lines in black
+            path = re.search(rf'stroke="#1c1c1c"[^>]* d="M[\d.]+ [\d.]+L([\d.]+) ([\d.]+)" stroke-dasharray="{dashes}"', picture)
+            expect(path, dashes, scene)
+            ends.append(path.groups())
+        expect_equal(ends[0], ends[1], "both end at the control")
+    flat = report("-s", "slope={vertices_m: [[0, 90], [152, 0]], segments: [{rn: 0.35, rt: 0.85}]}", "-s", "release.x_m=0", "paper-site")
+    expect("shadow angle" not in flat[1].text["svg"] and "reach angle" in flat[1].text["svg"], "no face")
+
+
+def test_box():
+    """The box of the answer has a colour, a border, a sign and a word for each answer, and text of enough contrast"""
+    wide = ("-n", 200, "-s", "uncertainty=[{path: rock.density_kg_m3, lo: 500, hi: 5000}]", "--sensitivity=20")
+    borders = set()
+    for kind, sign, few, arguments in (("no", "✘ NO", FEW, ("paper-site",)), ("no", "✘ NO", FEW, ("four-systems",)),
+                                       ("yes", "✔ YES", ("-n", 300, *FEW[2:]), ("-s", "controls[0].accepted_kJ=2000", "paper-site")),
+                                       ("depends", "? IT DEPENDS", wide, ("-s", "controls[0].accepted_kJ=120", "paper-site"))):
+        text, _ = report(*arguments, few=few)
+        box = re.search(r'<div class="answer (\w+)">\s*<p>([^<]*)', text)
+        expect(box and box[1] == kind and html.unescape(box[2]).startswith(sign), kind, box and box.groups())
+        rule = re.search(rf"\.answer\.{kind}{{([^}}]*)}}", text)[1]
+        borders.add((kind, re.search(r"border-style:(\w+)", rule)[1] if "border-style" in rule else "solid"))
+        paper = re.search(r"background:(#\w+)", rule) or re.search(r"\.answer{[^}]*background:(#\w+)", text)
+        colour = "".join(2 * c for c in paper[1][1:]) if len(paper[1]) == 4 else paper[1][1:]
+        expect(contrast("#1c1c1c") / contrast("#" + colour) >= 4.5, kind, paper[1])
+    expect_equal(len({style for _, style in borders}), 3, borders)
+
+
+def test_years_of_options():
+    """All options over the years on one scale, each with its cuts, the best one marked; also as --plot years"""
+    run = good("-b", "-f", "json", *FEW, "--years=1:25", "four-systems").json()[0]["options"]
+    picture = find_pictures(report("--years=1:25", "four-systems")[0])["Over the years, up to end of the forest (135 m)"]
+    words = [html.unescape(w) for w in re.findall(r"<text[^>]*>([^<]*)</text>", picture)]
+    best = min(run, key=lambda o: o["window"]["mean"])["name"]
+    for number, option in enumerate(run, 1):
+        expect_in(f"{'▸' if option['name'] == best else ''}{number} {option['name']}", words)
+    left, bottom, labels = read_axes(picture)
+    expect_equal((len(left), len(bottom)), (len(run), len(run)))
+    scales = {frozenset((y - top, label) for y, label in labels if top <= y <= end + 8) for _, top, end in left}
+    expect(len(scales) == 1 and len(next(iter(scales))) >= 2, scales)
+    expect_equal("".join(words).count("▼"), sum(y["cut"] for o in run for y in o["years"]), "cuts")
+    plot = good("--plot", "years", "-n", 60, "--size", "110x30", "four-systems").out
+    expect(all(option["name"] in plot for option in run) and "(limit 50)" in plot, plot)
+
+
+def test_energies():
+    """A table compares the limit with a car, half its mass times the square of its speed, and the classes of net fences"""
+    caption, _, rows = next(t for t in find_tables(report("paper-site")[0]) if t[0].startswith("Energies"))
+    by_name = {row[1].removeprefix("▸ "): float(row[2]) for row in rows}
+    expect_equal(by_name["car of 1500 kg at 50 km/h"], round(1500 / 2 * (50 / 3.6) ** 2 / 1000))
+    manual = (PROFILES.parent / "man" / "ceduo-model.7").read_text(encoding="utf-8")
+    classes = re.findall(r"^\.It (\d) Ta (\d+) Ta", manual, re.M)
+    shown = [(number, energy) for number, energy in classes if f"net fence of class {number}" in by_name]
+    expect(len(shown) >= 3 and all(by_name[f"net fence of class {number}"] == float(energy) for number, energy in shown), by_name, classes)
+    expect_equal(list(by_name.values()), sorted(by_name.values()), "order")
+    expect_equal([row[1] for row in rows if row[0] == "best"], ["▸ limit at end of the forest (135 m)"])
+    run = good("-b", "-f", "json", *FEW, "paper-site").json()[0]["options"][0]["controls"][0]
+    wooded, bare = run["wooded"]["energy_kJ"], run["bare"]["energy_kJ"]
+    for name, value in (("with forest, mean", wooded["mean"]), ("with forest, 95 % are below", wooded["p95"]),
+                        ("without forest, 95 % are below", bare["p95"])):
+        expect(abs(by_name[f"rocks that arrive {name}"] / value - 1) < 0.005, name, value, by_name)
+    large = {row[1]: row[2] for t in find_tables(report("-s", "rock.diameter_m=2", "paper-site")[0]) if t[0].startswith("Energies") for row in t[2]}
+    most = max(float(v) for name, v in large.items() if name.startswith("rocks that arrive"))
+    expect(max(float(v) for name, v in large.items() if name.startswith("net fence")) >= min(most, 4500), large)
+
+
+def test_best_row():
+    """Each table of the options marks the row of the best one, and only that"""
+    windows = {o["name"]: o["window"]["mean"] for o in good("-b", "-f", "json", *FEW, "four-systems").json()[0]["options"]}
+    best = min(windows, key=windows.get)
+    tables = [rows for _, heads, rows in find_tables(report("four-systems")[0]) if heads and heads[0] == "option"]
+    expect(len(tables) >= 3, tables)
+    for rows in tables:
+        expect_equal([row[1] for row in rows if row[0] == "best"], [f"▸ {best}"])
+        expect_equal(sum("▸" in row[1] for row in rows), 1, rows)
+    expect(not any(row[0] for _, heads, rows in find_tables(report("paper-site")[0]) if heads and heads[0] == "option" for row in rows))
+
+
+def test_captions():
+    """A caption is in the element of its table or picture, so that no page break comes between them"""
+    points = (*UNCERTAINTY[:4], "--sensitivity=256", "-j", 2)
+    for scene, few in (("paper-site", points), ("road-below", points), ("four-systems", FEW)):
+        text, _ = report(scene, few=few)
+        expect("Inputs that decide" in text or scene != "road-below", "a table of inputs")
+        expect(not re.search(r":</p>\s*<(table|div class=.pair.|figure)", text), scene)
+        expect_equal(text.count("<figure"), text.count("<figcaption>"), scene)
+        expect(re.search(r"figure\{[^}]*break-inside:avoid", text) and re.search(r"\btable\{[^}]*break-inside:avoid", text), scene)
+
+
+def test_like_sentences():
+    """No two sentences of a page differ only in names and numbers"""
+    seen = {}
+    for sentence in re.findall(r"<(?:p|li)[^>]*>([^<]{40,})</", report("four-systems", few=UNCERTAINTY)[0]):
+        shape = re.sub(r"'[^']*'|\([^()]*\)|^[^:]*: | Likewise: .*|[\d.]+", "", html.unescape(sentence).strip())
+        expect(shape not in seen, sentence, seen.get(shape))
+        seen[shape] = sentence
+
+
+def test_one_rock():
+    """One rock is singular in the error, the title and the years"""
+    for arguments in (("-b",), ("-b", "--details"), ("--report", "-")):
+        for scene in ("paper-site", "four-systems"):
+            out = good(*arguments, "-n", 1, "-s", "uncertainty=none", scene).out
+            expect(not re.search(r"\b1 rocks\b", out), arguments, re.findall(r".*\b1 rocks\b.*", out))
 
 
 def test_other_sizes():
@@ -287,8 +451,8 @@ def test_heads():
                     expect_equal(len(re.findall(r"<t[hd][ >]", row)), len(heads), f"{heads}: {row}")
     text, _ = report("four-systems")
     heads = [re.findall(r'<th[^>]*>([^<]*)</th>', h) for h in re.findall(r"<thead>(.*?)</thead>", text, re.S)]
-    expect_in(["option", "of 1000 &gt; 50 kJ", "test of energy", "difference to the first option", "ADC of the worst belt, m",
-               "test of contact", "chance of a free run", "test of free runs"], heads)
+    expect_in(["option", "test of energy", "difference to the first option", "test of contact", "chance of a free run",
+               "test of free runs", "years in which contact fails", "years in which free runs fail", "standing, m³ per ha"], heads)
 
 
 def test_powers():

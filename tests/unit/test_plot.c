@@ -537,6 +537,7 @@ TEST_BARE(titles_describe_the_picture)
         {"kept: height of the rocks above the ground", ", without forest"},
         {"kept: energy at path (40 m)", ", without forest"},
         {"kept: year by year, up to path (40 m)", ""},
+        {"Over the years, up to path (40 m)", ""},
         {"kept: coppice, from above", ""},
         {"Options side by side, up to path (40 m)", ""},
         {"Options over the years ahead, up to path (40 m)", ""},
