@@ -390,12 +390,13 @@ def test_steps():
 
 
 def table(screen, head):
-    """Return the rows of the table below the line that starts with these words: lists of words."""
+    """Return the rows of the table below these words, in a form below or beside a picture: lists of words."""
+    pattern = re.compile(r" {4}" + " +".join(map(re.escape, head.split())) + r"(?: |$)")
     lines = screen.body.split("\n")
-    at = next((i for i, line in enumerate(lines) if line.split()[:len(head.split())] == head.split()), None)
-    expect(at is not None, f"no table {head} in the", screen)
+    at, found = next(((i, m) for i, m in enumerate(map(pattern.search, lines)) if m), (None, None))
+    expect(found, f"no table {head} in the", screen)
     rows = []
-    for line in lines[at + 1:]:
+    for line in (line[found.start():] for line in lines[at + 1:]):
         if not re.match(r"\d+ ", line):
             break
         rows.append(line.split())
@@ -616,7 +617,7 @@ def test_vertices():
         dump
         key d
         dump""")
-    counts = [len(re.findall(r"^\d +\S+ \S+$", s.body.split("Profile: points")[1], re.M)) for s in screens]
+    counts = [len(re.findall(r"(?:^| )\d +\S+ \S+$", s.body.split("Profile: points")[1], re.M)) for s in screens]
     expect_in("60 35", screens[0].body)
     expect_equal(counts[0], 3, "vertices")
     for i in (1, 2):

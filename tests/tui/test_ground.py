@@ -40,7 +40,7 @@ def land(script, text=LAND):
 
 
 def points(screen):
-    return re.findall(r"^\d +(\S+) (\S+)$", screen.body.split("Profile: points")[1], re.M)
+    return re.findall(r"(?:^| )\d +(\S+) (\S+)$", screen.body.split("Profile: points")[1], re.M)
 
 
 def stretches(screen, head):
