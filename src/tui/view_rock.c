@@ -24,7 +24,7 @@ static void build_rock(struct app *app, struct form *form)
                                         [CEDUO_SHAPE_ELLIPSOID] = "shape axes_m",
                                         [CEDUO_SHAPE_BLOCK] = "shape axes_m"};
     const struct node *blocks = ceduo_document_node(&app->document, "blocks");
-    ceduo_form_heading(form, blocks ? _("Rock: shape and density; sizes come from the blocks") : _("Rock"));
+    ceduo_form_heading(form, blocks ? _("Rock; sizes come from the blocks") : _("Rock"));
     ceduo_form_fields(form, "rock.", sizes[app->document.file.scene.rock.shape]);
     ceduo_form_fields(form, "rock.", "mass_kg density_kg_m3");
     if (blocks)
