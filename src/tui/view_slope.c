@@ -400,6 +400,8 @@ static void draw_slope(struct app *app, struct ceduo_area area)
     struct layout layout = choose_layout(app, area);
     ceduo_app_draw_form(app, layout.form);
     area.width = layout.columns;
+    if (layout.form.top > area.top) /* below the pictures */
+        area.height = layout.form.top - area.top;
     struct ceduo_area whole = area;
     bool on_control =
         !picture_only && form_row && strcmp(form_row->list, "controls") == 0 && form_row->index < scene->controls_count;

@@ -560,7 +560,7 @@ def test_tour_and_left_work():
         write_copies(place, 1)
         t.start("--tour", sees=("Tour 1/10", "1 slope"))
         t.keys(*["Space"] * 10)  # a stand is added as an option
-        t.sees("Tour 3/10", "simple-c", "* paper-site")
+        t.sees("Tour 3/10", "simple-c", "* Test")
         t.text("zzz")
         t.tmux("resize-window", "-x", "100", "-y", "30")
         t.sees("Tour 3/10")
@@ -568,7 +568,7 @@ def test_tour_and_left_work():
         t.keys("Escape")
         t.sees("Unsaved changes were found", "never saved, slope 1", lacks=("Tour 3/10",))
         t.keys("n")
-        t.sees("1 slope", "? help", lacks=("* paper-site", "Unsaved changes"))
+        t.sees("1 slope", "? help", lacks=("* Test", "Unsaved changes"))
         t.keys("q")
         t.sees("READY>", lacks=("1 slope",))
         expect_equal(len(left_behind(place)), 1, "copies after the tour")
