@@ -151,6 +151,7 @@ class Case:
         self.words = set()  # (path, word)
         self.ends = set()   # (path, end) of values at an end
         self.tolerance = 0  # m: of the profile
+        self.moved = 0      # m: by which points of a table may be moved, because they are less than 1 mm apart
         self.belts = []     # per option: [(from, to, whole stand)]
 
     def text(self):
@@ -384,6 +385,7 @@ class Maker:
         head = self.rng.choice(["distance{}elevation", "Distance{}Elevation", "x{}z"]).format(sign)
         end = self.rng.choice(["\n", "\r\n"])
         name = f"s{self.index}.csv"
+        self.case.moved = 1e-3 * len(xs)
         rows = [f"{x!r}{sign}{z!r}" for x, z in zip(xs, zs)]
         if layers:
             others = [f"{x!r}{sign}{z + 1!r}" for x, z in zip(xs, zs)]

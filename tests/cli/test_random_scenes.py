@@ -510,7 +510,7 @@ def check_ends(case, result, option, what):
         arrive = [(c["wooded"] or c["bare"])["reach_hi"] for c in option["controls"]]
         expect(set(arrive) == {1}, f"{what}: all are unfinished, and may arrive: {arrive}")
     if stop:
-        slack = 4 * EPSILON * max(abs(case.xs[0]), abs(case.xs[-1]))
+        slack = 4 * EPSILON * max(abs(case.xs[0]), abs(case.xs[-1])) + case.moved
         expect_rising([case.xs[0] - slack, stop["p50"], stop["p95"], stop["max"], case.xs[-1] + slack], f"{what}: stop_x_m")
 
 
