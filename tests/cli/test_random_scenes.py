@@ -161,6 +161,8 @@ def most_energy(case, result, x):
     """Return the maximum energy (J) of a rock at x: its release energy and its fall. NaN if rocks differ."""
     scene = case.scene
     release = scene.get("release", {})
+    if isinstance(release, list):
+        return math.nan
     turns = result["law"] == "arm" and mean_value(release.get("spin_rad_s", 0)) != 0  # each with the moment of its own section
     if varies(scene["rock"]) or varies(release) or turns or case.xs[-1] - case.xs[0] < 1e-290:  # few bits of an x remain
         return math.nan
