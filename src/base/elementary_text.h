@@ -47,30 +47,29 @@ static inline void ELEMENTARY(exp)(const REAL *x, REAL *result)
     *result = e * AS_REAL((AS_BITS(k + 0x1.8p52) + 1023) << 52); /* the lowest bits of the sum are the integer */
 }
 
-/* Sine and cosine of an angle in [-pi/2, pi/2], within 2e-16. */
+/* Sine and cosine of an angle in [-pi/4, pi/4], within 2e-16: polynomials of fdlibm (Sun Microsystems 1993), in an order that
+ * needs few steps. */
+static inline void ELEMENTARY(sincos_small)(const REAL *angle, REAL *sine, REAL *cosine)
+{
+    REAL y = *angle, q = y * y, w = q * q;
+    REAL s = (-1.66666666666666324348e-01 + q * 8.33333333332248946124e-03) +
+             w * ((-1.98412698298579493134e-04 + q * 2.75573137070700676789e-06) +
+                  w * (-2.50507602534068634195e-08 + q * 1.58969099521155010221e-10));
+    REAL c = (4.16666666666666019037e-02 + q * -1.38888888888741095749e-03) +
+             w * ((2.48015872894767294178e-05 + q * -2.75573143513906633035e-07) +
+                  w * (2.08757232129817482790e-09 + q * -1.13596475577881948265e-11));
+    *sine = y + y * (q * s);
+    *cosine = (1.0 - 0.5 * q) + w * c;
+}
+
+/* Likewise, of an angle in [-pi/2, pi/2]. */
 static inline void ELEMENTARY(sincos)(const REAL *angle, REAL *sine, REAL *cosine)
 {
     const double half_pi_hi = 1.5707963267948966, half_pi_lo = 6.123233995736766e-17;
     const uint64_t sign = 0x8000000000000000;
-    REAL a = AS_REAL(AS_BITS(*angle) & ~sign);
+    REAL a = AS_REAL(AS_BITS(*angle) & ~sign), s, c;
     REAL y = BLEND(LESS(0.7853981633974483, a), (half_pi_hi - a) + half_pi_lo, a); /* sin a = cos(pi/2 - a) */
-    REAL q = y * y;
-    REAL s = q * (1.0 / 355687428096000.0) - 1.0 / 1307674368000.0;
-    s = s * q + 1.0 / 6227020800.0;
-    s = s * q - 1.0 / 39916800.0;
-    s = s * q + 1.0 / 362880.0;
-    s = s * q - 1.0 / 5040.0;
-    s = s * q + 1.0 / 120.0;
-    s = s * q - 1.0 / 6.0;
-    s = y + y * (q * s);
-    REAL c = q * (1.0 / 20922789888000.0) - 1.0 / 87178291200.0;
-    c = c * q + 1.0 / 479001600.0;
-    c = c * q - 1.0 / 3628800.0;
-    c = c * q + 1.0 / 40320.0;
-    c = c * q - 1.0 / 720.0;
-    c = c * q + 1.0 / 24.0;
-    c = c * q - 1.0 / 2.0;
-    c = c * q + 1.0;
+    ELEMENTARY(sincos_small)(&y, &s, &c);
     *cosine = BLEND(LESS(0.7853981633974483, a), s, c);
     *sine = AS_REAL(AS_BITS(BLEND(LESS(0.7853981633974483, a), c, s)) | (AS_BITS(*angle) & sign));
 }

@@ -42,6 +42,7 @@ OP(mask, less, (real p, real q), p < q)
 OP(mask, greater_equal, (real p, real q), p >= q)
 OP(mask, equal, (real p, real q), p == q)
 OP(mask, and_not, (mask p, mask q), p && !q)
+OP(real, zero_if, (mask m, real p), m ? 0 : p)
 OP(bool, any, (mask p), p)
 FORCE_INLINE real blend(mask m, real p, real q) /* p if m is set, otherwise q */
 {
@@ -126,6 +127,7 @@ OP(mask, and_not, (mask p, mask q), (mask)(p & ~(unsigned)q))                   
 OP(unsigned, lane_bits, (mask p), p)                                                      /* bit i is lane i */
 OP(mask, lane_mask, (unsigned lanes), (mask)lanes)
 OP(real, blend, (mask m, real p, real q), _mm512_mask_blend_pd(m, q, p))
+OP(real, zero_if, (mask m, real p), _mm512_maskz_mov_pd((mask)~m, p))
 OP(ints, blend_ints, (mask m, ints p, ints q), (ints)_mm512_mask_blend_epi64(m, (__m512i)q, (__m512i)p))
 OP(real, vsqrt, (real p), _mm512_sqrt_pd(p))
 OP(real, min, (real p, real q), _mm512_min_pd(p, q))
@@ -136,6 +138,8 @@ FORCE_INLINE void compress(mask which, ints p, void *to)
 {
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi64(which, (__m512i)p));
 }
+/* Load numbers without gaps into some lanes. */
+OP(real, expand, (unsigned lanes, const double *from), _mm512_maskz_expandloadu_pd((mask)lanes, from))
 
 /* Return number i modulo 16 of a table of 16. */
 #define LOOKUP_16
@@ -144,14 +148,15 @@ OP(real, lookup_16, (const double *table, ints i), _mm512_permutex2var_pd(load(t
 #define EVEN(p, q) SHUFFLED(p, q, 0, 2, 4, 6, 8, 10, 12, 14)
 #define ODD(p, q)  SHUFFLED(p, q, 1, 3, 5, 7, 9, 11, 13, 15)
 #define NEXT(p, q) SHUFFLED(p, q, 1, 2, 3, 4, 5, 6, 7, 8)
-/* Load the pairs at i[0], i[2], i[4] and i[6]. */
-FORCE_INLINE real load_four_rows(const double (*pairs)[2], const uint64_t *i)
+/* Load the pairs at i[0], i[2], i[4] and i[6], shifted. */
+FORCE_INLINE real load_four_rows(const double (*pairs)[2], const uint64_t *i, int shift)
 {
-    return _mm512_insertf64x4(_mm512_castpd256_pd512(load_pair_rows(pairs, i[0], i[2])), load_pair_rows(pairs, i[4], i[6]), 1);
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(load_pair_rows(pairs, i[0] << shift, i[2] << shift)),
+                              load_pair_rows(pairs, i[4] << shift, i[6] << shift), 1);
 }
-FORCE_INLINE void gather_pairs(const double (*pairs)[2], const uint64_t *i, real *a, real *b)
+FORCE_INLINE void gather_pairs(const double (*pairs)[2], const uint64_t *i, int shift, real *a, real *b)
 {
-    real even = load_four_rows(pairs, i), odd = load_four_rows(pairs, i + 1);
+    real even = load_four_rows(pairs, i, shift), odd = load_four_rows(pairs, i + 1, shift);
     *a = _mm512_unpacklo_pd(even, odd);
     *b = _mm512_unpackhi_pd(even, odd);
 }
@@ -162,6 +167,7 @@ typedef int64_t mask __attribute__((vector_size(32))); /* all bits of a lane, or
 
 OP(real, splat, (double s), _mm256_set1_pd(s))
 OP(real, blend, (mask m, real p, real q), _mm256_blendv_pd(q, p, (real)m))
+OP(mask, and_not, (mask p, mask q), (mask)_mm256_andnot_pd((real)q, (real)p)) /* the compiler would make a blend of p & ~q */
 OP(unsigned, lane_bits, (mask p), (unsigned)_mm256_movemask_pd((__m256d)p))
 OP(real, vsqrt, (real p), _mm256_sqrt_pd(p))
 OP(real, min, (real p, real q), _mm256_min_pd(p, q))
@@ -181,13 +187,22 @@ FORCE_INLINE void compress(mask which, ints p, void *to)
         COMPRESS_ROW(2, 3, 0, 0), COMPRESS_ROW(0, 2, 3, 0), COMPRESS_ROW(1, 2, 3, 0), COMPRESS_ROW(0, 1, 2, 3)};
     _mm256_storeu_si256(to, _mm256_permutevar8x32_epi32((__m256i)p, (__m256i)permutations[lane_bits(which)]));
 }
+FORCE_INLINE real expand(unsigned lanes, const double *from)
+{
+    static const ints permutations[] = {
+        COMPRESS_ROW(0, 0, 0, 0), COMPRESS_ROW(0, 0, 0, 0), COMPRESS_ROW(0, 0, 0, 0), COMPRESS_ROW(0, 1, 0, 0),
+        COMPRESS_ROW(0, 0, 0, 0), COMPRESS_ROW(0, 0, 1, 0), COMPRESS_ROW(0, 0, 1, 0), COMPRESS_ROW(0, 1, 2, 0),
+        COMPRESS_ROW(0, 0, 0, 0), COMPRESS_ROW(0, 0, 0, 1), COMPRESS_ROW(0, 0, 0, 1), COMPRESS_ROW(0, 1, 0, 2),
+        COMPRESS_ROW(0, 0, 0, 1), COMPRESS_ROW(0, 0, 1, 2), COMPRESS_ROW(0, 0, 1, 2), COMPRESS_ROW(0, 1, 2, 3)};
+    return (real)_mm256_permutevar8x32_epi32((__m256i)load(from), (__m256i)permutations[lanes & REGISTER]);
+}
 
 #define EVEN(p, q) SHUFFLED(p, q, 0, 2, 4, 6)
 #define ODD(p, q)  SHUFFLED(p, q, 1, 3, 5, 7)
 #define NEXT(p, q) SHUFFLED(p, q, 1, 2, 3, 4)
-FORCE_INLINE void gather_pairs(const double (*pairs)[2], const uint64_t *i, real *a, real *b)
+FORCE_INLINE void gather_pairs(const double (*pairs)[2], const uint64_t *i, int shift, real *a, real *b)
 {
-    real even = load_pair_rows(pairs, i[0], i[2]), odd = load_pair_rows(pairs, i[1], i[3]);
+    real even = load_pair_rows(pairs, i[0] << shift, i[2] << shift), odd = load_pair_rows(pairs, i[1] << shift, i[3] << shift);
     *a = _mm256_unpacklo_pd(even, odd);
     *b = _mm256_unpackhi_pd(even, odd);
 }
@@ -198,6 +213,7 @@ typedef int64_t mask __attribute__((vector_size(8 * REAL_LANES)));
 
 OP(real, splat, (double s), (real){0} + s)
 OP(real, blend, (mask m, real p, real q), (real)(((ints)m & (ints)p) | (~(ints)m & (ints)q)))
+OP(mask, and_not, (mask p, mask q), p & ~q)
 FORCE_INLINE unsigned lane_bits(mask p)
 {
     unsigned lanes = 0;
@@ -238,7 +254,7 @@ OP(mask, greater_equal, (real p, real q), (mask)(p >= q))
 OP(mask, equal, (real p, real q), (mask)(p == q))
 OP(mask, equal_ints, (ints p, ints q), (mask)(p == q))
 OP(mask, greater_ints, (ints p, ints q), (mask)((mask)p > (mask)q))
-OP(mask, and_not, (mask p, mask q), p & ~q)
+OP(real, zero_if, (mask m, real p), (real)and_not((mask)p, m))
 OP(ints, blend_ints, (mask m, ints p, ints q), (ints)blend(m, (real)p, (real)q))
 FORCE_INLINE mask lane_mask(unsigned lanes)
 {

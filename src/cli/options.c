@@ -337,8 +337,9 @@ static const struct option_row rows[] = {
      .help = N_("fit this value to the observations, between LO and HI; may be repeated; -o FILE.yaml writes the first scene "
                 "with the fitted values")},
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, M_CHECK | M_FIND | M_FIT | M_PAGE | M_SURVEY,
-     .help = N_("print a picture: profile, energy, height, histogram, rotation, years, stand, compare, tradeoff, uncertainty "
-                "or hazard")},
+     .help = N_(
+         "print a picture: profile, energy, height, histogram, rotation, years, stand, compare, ahead, tradeoff, uncertainty "
+         "or hazard")},
     {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_PLOT,
      .help = N_("size of a picture in columns and lines (80x24)")},
     {"charset", 0, "braille|block|ascii", set_word, MEMBER(charset), MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_PICTURE,
@@ -482,7 +483,7 @@ static enum exit_status check_arguments(const struct arguments *a)
     if (a->format == CEDUO_GEOJSON && !a->each)
         return report_requirement(formats[a->format], "--each");
     if (plot && a->years && !(ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_YEARS))
-        return report_requirement("years", "--plot rotation|years|tradeoff");
+        return report_requirement("years", "--plot rotation|years|ahead|tradeoff");
     if (a->mode == MODE_FIND && !ceduo_goals[a->goal].usual && isnan(a->goal_value))
         return ceduo_usage_error("goal", _("'%s' needs a value, such as %s=%s"), goal, goal,
                                  ceduo_goal_is_share(a->goal) ? "0.5" : "50");

@@ -35,7 +35,6 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     if (!ceduo_validate(&v))
         return false;
     file->scene = v.draft.scene;
-    file->scene.size = sizeof file->scene;
     file->scene.title = file->scene.title ? file->scene.title : (char *)(uintptr_t)ceduo_file_name(file->path);
     bool good = ceduo_problems_check_memory(problems) && problems->met == before;
     file->slope_node = good ? ceduo_node_get(file->root, "slope") : NULL;

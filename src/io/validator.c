@@ -154,6 +154,7 @@ bool ceduo_validate(struct validator *v)
     struct ceduo_scene *scene = &v->draft.scene;
     size_t before = v->problems->met;
     ceduo_schema_init(ceduo_schema_scene(), &v->draft);
+    scene->size = sizeof *scene;
     ceduo_arrange_observed(v);
     const struct binding to = {v->arena, v->problems, v->warns, v->notes, &v->invalid, ceduo_validate_end, v};
     ceduo_bind(&to, ceduo_schema_scene(), v->root, &v->draft);

@@ -125,6 +125,16 @@ const char *ceduo_app_stand(const struct app *app)
     return ceduo_app_format(app, "%s[%zu].stand", ceduo_app_forest(app), app->belt);
 }
 
+/* Return the years of each option; an element is NULL until they are known. */
+static struct ceduo_years **find_years(const struct app *app)
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    struct ceduo_years **years = ceduo_check_memory(ceduo_arena_alloc(app->scratch, scene->options_count * sizeof *years));
+    for (size_t i = 0; i < scene->options_count; i++)
+        years[i] = ceduo_live_years(&app->live, scene, i);
+    return years;
+}
+
 struct ceduo_picture ceduo_app_picture(const struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
@@ -138,6 +148,7 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .stems = stems > 0 ? app->trajectory.stems : NULL,
                                   .stems_count = stems,
                                   .years = ceduo_live_years(&app->live, scene, app->option),
+                                  .years_of_options = find_years(app),
                                   .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
                                   .year = app->year};
 }
@@ -165,14 +176,11 @@ struct ceduo_report *ceduo_app_report(const struct app *app)
     const struct ceduo_scene *scene = &app->document.file.scene;
     struct ceduo_report *report = ceduo_check_memory(ceduo_arena_alloc(app->scratch, sizeof *report));
     struct ceduo_uncertainty_report *uncertainty = ceduo_check_memory(ceduo_arena_alloc(app->scratch, sizeof *uncertainty));
-    struct ceduo_years **years = ceduo_check_memory(ceduo_arena_alloc(app->scratch, scene->options_count * sizeof *years));
-    for (size_t i = 0; i < scene->options_count; i++)
-        years[i] = ceduo_live_years(&app->live, scene, i);
     *report = (struct ceduo_report){.file = &app->document.file,
                                     .result = app->live.result,
                                     .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
                                     .uncertainty = ceduo_app_uncertainty(app, uncertainty) ? uncertainty : NULL,
-                                    .years_ahead = years,
+                                    .years_ahead = find_years(app),
                                     .snapshot = ceduo_live_snapshot(&app->live, scene),
                                     .remarks = {.ground_assumed = app->document.file.ground_assumed},
                                     .seconds = app->live.results.snapshot ? app->live.results.snapshot->seconds : 0,

@@ -39,7 +39,7 @@ struct key_binding {
         ACTION_##NAME, __VA_ARGS__                                                                                             \
     }
 
-#define VIEW_PANES 3
+#define VIEW_PANES 4
 
 /* A view: its content and its keys. */
 struct view {
@@ -90,7 +90,7 @@ struct rock_trajectory {
     struct ceduo_polyline line; /* the part shown */
 };
 
-#define PICTURES_MAX 3
+#define PICTURES_MAX 4
 #define HITS_MAX     64
 
 /* An area that reacts to the mouse, recorded while it is drawn. The last one under the pointer counts. */

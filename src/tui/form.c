@@ -43,6 +43,40 @@ void ceduo_form_note(struct form *form, const char *text)
 
 /* ---- cells ---- */
 
+#define DIGITS_MAX  5 /* show fewer digits of computed values; the full value appears while editing */
+#define COLUMNS_MAX 63
+#define CELL_SIZE   (4 * COLUMNS_MAX + 2)
+
+static size_t count_digits(const char *shown)
+{
+    size_t n = 0;
+    for (const char *c = shown; *c; c++)
+        n += isdigit((unsigned char)*c) && (n > 0 || *c != '0');
+    return n;
+}
+
+/* Write the text of a cell for `span` columns. */
+static void write_cell(char shown[CELL_SIZE], const struct form_cell *cell, int span)
+{
+    LOCAL_TEXT(words);
+    if (cell->given && strcmp(cell->field->key, "path") == 0) /* show a path of the scene in words */
+        ceduo_format_path(cell->text, &words);
+    else
+        ceduo_text_append(&words, cell->text[0] ? cell->text : "-");
+    size_t length = ceduo_utf8_cut(ceduo_text_string(&words), COLUMNS_MAX);
+    snprintf(shown, CELL_SIZE, "%.*s%s", (int)length, ceduo_text_string(&words), cell->assumed ? "*" : "");
+    double number;
+    bool is_long = count_digits(shown) > DIGITS_MAX || (int)ceduo_utf8_width(shown) > span;
+    if (is_long && strpbrk(shown, ".,") && ceduo_input_parse_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
+        snprintf(shown, CELL_SIZE, fabs(number) < 1e4 || fabs(number) >= 1e9 ? "%.4g%s" : "%.0f%s", number,
+                 cell->assumed ? "*" : "");
+    if (strspn(shown, "0123456789.+-e *") == strlen(shown))
+        ceduo_number_localize(shown);
+    char *suffix = cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
+    if (suffix && (int)ceduo_utf8_width(shown) > span) /* keep only the common name of a species */
+        *suffix = '\0';
+}
+
 /* Append a value as shown: a scalar in the words and unit of the field, a spread, a list, or the name of a mapping. */
 static void show_node(struct text *to, const struct node *node, const struct field *field)
 {
@@ -88,6 +122,9 @@ static void add_cell(struct form *form, struct form_row *row, const struct field
     if ((field->type == FIELD_NUMBERS || field->type == FIELD_SPREADS || field->type == FIELD_SPREAD) && shown.bytes)
         ceduo_number_localize(shown.bytes);
     cell->text = ceduo_arena_string(&form->arena, ceduo_text_string(&shown));
+    char whole[CELL_SIZE];
+    write_cell(whole, cell, COLUMNS_MAX);
+    cell->columns = (int)ceduo_utf8_width(whole);
 }
 
 void ceduo_form_field(struct form *form, const char *path, const char *label)
@@ -133,8 +170,25 @@ static struct form_row *add_item(struct form *form, const char *list, size_t i)
     return row;
 }
 
+/* Give the rows of a table, from its head on, the columns of its widest cells and short heads, then of its long heads. */
+static void set_columns(struct form *form, size_t head)
+{
+    int *columns = ceduo_check_memory(ceduo_arena_alloc(&form->arena, 2 * FORM_COLUMNS * sizeof *columns));
+    for (size_t k = 0; k < form->rows[head].n; k++) {
+        const struct field_shown *shown = &form->rows[head].cells[k].field->shown;
+        columns[FORM_COLUMNS + k] = (int)ceduo_utf8_width(_(shown->label));
+        columns[k] = shown->brief ? (int)ceduo_utf8_width(ceduo_translate_in(shown->brief)) : columns[FORM_COLUMNS + k];
+        for (size_t i = head + 1; i < form->n; i++)
+            if (form->rows[i].cells[k].columns > columns[k])
+                columns[k] = form->rows[i].cells[k].columns;
+    }
+    for (size_t i = head; i < form->n; i++)
+        form->rows[i].columns = columns;
+}
+
 void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys)
 {
+    size_t first = form->n;
     const struct node *node = ceduo_document_node(form->document, list);
     const struct field *object_field = ceduo_schema_row(ceduo_arena_format(&form->arena, "%s[0]", list));
     object_field = group ? ceduo_schema_field(object_field->object, group) : object_field;
@@ -162,6 +216,7 @@ void ceduo_form_table(struct form *form, const char *list, const char *group, co
             add_cell(form, row, value && value->shown.per != 1 ? value : field, path);
         }
     }
+    set_columns(form, first);
     if (!node || node->n == 0)
         add_row(form, FORM_FIELDS, _("none; a adds one"))->list = list;
 }
@@ -264,50 +319,56 @@ static int label_columns(const struct form *form, int width)
     return columns < max ? columns : max;
 }
 
+/* Share `space` columns among the cells of a row: each gets what it wants, then its long head and a share of the rest, or the
+ * widest get less. Each cell has a blank after it. */
+static void share_columns(const struct form_row *row, int space, int *each)
+{
+    int n = (int)row->n, rest = space;
+    for (int k = 0; k < n; k++) {
+        each[k] = row->columns ? row->columns[k] + 1 : space / n < COLUMN_MAX ? space / n : COLUMN_MAX;
+        rest -= each[k];
+    }
+    for (; rest < 0; rest++) {
+        int widest = 0;
+        for (int k = 1; k < n; k++)
+            widest = each[k] > each[widest] ? k : widest;
+        each[widest]--;
+    }
+    for (int k = 0; k < n && row->columns; k++) {
+        int more = row->columns[FORM_COLUMNS + k] + 1 - each[k];
+        more = more > 0 && more <= rest ? more : 0;
+        each[k] += more;
+        rest -= more;
+    }
+    for (int k = 0; k < n; k++) {
+        int more = rest / (n - k);
+        more = each[k] + more <= COLUMN_MAX ? more : each[k] < COLUMN_MAX ? COLUMN_MAX - each[k] : 0;
+        each[k] += more;
+        rest -= more;
+    }
+}
+
 /* Compute the columns of cell k of a row in a rectangle `width` wide with labels of `label` columns. */
 static void cell_place(const struct form_row *row, int width, int label, size_t k, int *from, int *span)
 {
     label = row->list[0] ? 4 : label;
-    int space = width - label;
-    int each = row->n > 0 ? space / (int)row->n : space;
-    each = row->list[0] && each > COLUMN_MAX ? COLUMN_MAX : each;
-    *from = label + (int)k * each;
-    *span = each - 1;
-}
-
-#define DIGITS_MAX  5 /* show fewer digits of computed values; the full value appears while editing */
-#define COLUMNS_MAX 63
-
-static size_t count_digits(const char *shown)
-{
-    size_t n = 0;
-    for (const char *c = shown; *c; c++)
-        n += isdigit((unsigned char)*c) && (n > 0 || *c != '0');
-    return n;
+    *from = label;
+    *span = width - label - 1;
+    if (!row->list[0] || row->n == 0)
+        return;
+    int each[FORM_COLUMNS];
+    share_columns(row, width - label, each);
+    for (size_t i = 0; i < k && i < row->n; i++)
+        *from += each[i];
+    *span = k < row->n ? each[k] - 1 : 0;
 }
 
 /* `edit`: the typed text; NULL: the cell is not being edited. */
 static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, int x, int y, int span, bool cursor,
                       const char *edit)
 {
-    char shown[4 * COLUMNS_MAX + 2];
-    LOCAL_TEXT(words);
-    if (cell->given && strcmp(cell->field->key, "path") == 0) /* show a path of the scene in words */
-        ceduo_format_path(cell->text, &words);
-    else
-        ceduo_text_append(&words, cell->text[0] ? cell->text : "-");
-    size_t length = ceduo_utf8_cut(ceduo_text_string(&words), COLUMNS_MAX);
-    snprintf(shown, sizeof shown, "%.*s%s", (int)length, ceduo_text_string(&words), cell->assumed ? "*" : "");
-    double number;
-    bool is_long = count_digits(shown) > DIGITS_MAX || (int)ceduo_utf8_width(shown) > span;
-    if (is_long && strpbrk(shown, ".,") && ceduo_input_parse_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
-        snprintf(shown, sizeof shown, fabs(number) < 1e4 || fabs(number) >= 1e9 ? "%.4g%s" : "%.0f%s", number,
-                 cell->assumed ? "*" : "");
-    if (strspn(shown, "0123456789.+-e *") == strlen(shown))
-        ceduo_number_localize(shown);
-    char *suffix = cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
-    if (suffix && (int)ceduo_utf8_width(shown) > span) /* keep only the common name of a species */
-        *suffix = '\0';
+    char shown[CELL_SIZE];
+    write_cell(shown, cell, span);
     if (cursor)
         for (int i = 0; i < span; i++)
             ceduo_cells_label(cells, x + i, y, CEDUO_ROLE_CURSOR, " ");
@@ -320,11 +381,12 @@ static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, i
     ceduo_canvas_draw_text(&cells->canvas, x, y, span, role, shown);
 }
 
-static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t i, int y, const char *edit)
+/* `label`: columns of the labels. */
+static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t i, int y, int label, const char *edit)
 {
     const struct form_row *row = &form->rows[i];
     struct ceduo_canvas *canvas = &cells->canvas;
-    int left = form->area.left, width = form->area.width, label = label_columns(form, width);
+    int left = form->area.left, width = form->area.width;
     if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
         ceduo_canvas_draw_text(canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM,
                                row->label);
@@ -348,13 +410,11 @@ static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t 
     }
 }
 
-void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit)
+void ceduo_form_scroll(struct form *form, struct ceduo_area area)
 {
-    form->area = area;
-    if (area.height <= 0 || area.width < 8)
-        return;
     struct viewport *v = &form->lines;
     size_t above = form->row, below = form->row;
+    form->area = area;
     while (above > 0 && !has_fields(&form->rows[above - 1])) /* show headings with the line below */
         above--;
     while (below + 1 < form->n && !has_fields(&form->rows[below + 1]))
@@ -364,8 +424,18 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
     viewport_fit(v, area.height, (int)form->n);
     viewport_show(v, (int)above, (int)below);
     viewport_show(v, (int)form->row, (int)form->row); /* the cursor has priority in a low area */
+}
+
+void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit)
+{
+    form->area = area;
+    if (area.height <= 0 || area.width < 8)
+        return;
+    ceduo_form_scroll(form, area);
+    const struct viewport *v = &form->lines;
+    int label = label_columns(form, area.width);
     for (int i = v->first; i < v->first + v->rows && i < v->count; i++)
-        draw_row(form, cells, (size_t)i, area.top + i - v->first, edit);
+        draw_row(form, cells, (size_t)i, area.top + i - v->first, label, edit);
 }
 
 /* Compute the first column of cell k; the label belongs to the first cell. The end of the last cell is that of the form. */

@@ -15,6 +15,7 @@ struct form_cell {
     const struct field *field;
     const char *text;    /* displayed value, see view/value_text.h */
     const char *written; /* scalar as in the file; "": none, or not a scalar */
+    int columns;         /* columns that show it whole */
     bool given;          /* written in the scene, not a default */
     bool assumed;
 };
@@ -27,6 +28,7 @@ struct form_row {
     size_t n;
     struct form_cell cells[FORM_COLUMNS]; /* a table head has fields only */
     const char *list;                     /* list of the row's item; "": none */
+    const int *columns;                   /* columns of a table's cells, then of its heads; NULL: all equal */
     const char *group;                    /* the only group of that item in this row; NULL: the whole item */
     size_t index;
 };
@@ -67,6 +69,9 @@ void ceduo_form_go_to_item(struct form *form, const char *list, size_t index);
 /* Return the cell or the line under the cursor; NULL: none. */
 struct form_cell *ceduo_form_cell(struct form *form);
 struct form_row *ceduo_form_row(struct form *form);
+
+/* Scroll to the cursor, for an area. */
+void ceduo_form_scroll(struct form *form, struct ceduo_area area);
 
 /* Draw the lines, scrolled to the cursor. `edit`: text shown in the cell under the cursor; may be NULL. */
 void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit);

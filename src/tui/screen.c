@@ -16,13 +16,15 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 #define WIDTH_MIN  60
 #define HEIGHT_MIN 16
 
-#define MARKS_MORE  2   /* extra columns of the verdict's signs in ASCII */
-#define WIDE        100 /* columns for an extra blank between the titles of views */
-#define NAME_MIN    3   /* min. columns of the title of a closed view */
-#define NAME_SHORT  5   /* the same if the scene's name then fits */
-#define NAME_WANTED 20  /* wanted columns of it */
-#define UNSAVED     "* "
-#define SCENE_GAP   1 /* columns kept for blanks around the scene's name */
+#define MARKS_MORE    2   /* extra columns of the verdict's signs in ASCII */
+#define WIDE          100 /* columns for an extra blank between the titles of views */
+#define NAME_MIN      3   /* min. columns of the title of a closed view */
+#define NAME_SHORT    5   /* the same if the scene's title then fits */
+#define NAME_WANTED   20  /* wanted columns of it */
+#define TITLE_MIN     10  /* min. columns of the scene's title */
+#define SCENE_GAP     1   /* columns before the scene's title */
+#define UNSAVED       "* "
+#define UNSAVED_WIDTH 2
 
 /* Return the scene's title, with "* " if it is unsaved. */
 static const char *scene_title(struct app *app)
@@ -50,43 +52,31 @@ static int all_columns(const struct app *app, int max)
     return total;
 }
 
-/* Return the columns that the scene's name needs, with blanks and with the mark of unsaved work, which may come. */
-static int scene_columns(const struct app *app, const char *name)
+/* Return the columns of the scene's title in the first line: cut to those next to short titles of views; 0 if they are few. */
+static int scene_columns(const struct app *app, const char *title)
 {
-    return ceduo_cells_label_width(app->charset, name) + SCENE_GAP +
-           (ceduo_document_unsaved(&app->document) ? 0 : (int)strlen(UNSAVED));
+    int width = ceduo_cells_label_width(app->charset, title),
+        unsaved = ceduo_document_unsaved(&app->document) ? 0 : UNSAVED_WIDTH;
+    int max = app->width - all_columns(app, NAME_SHORT) - SCENE_GAP - unsaved;
+    return max < TITLE_MIN && max < width ? 0 : width < max ? width : max;
 }
 
-/* Return the name of the scene for the first line: its title if that fits next to short titles of views, otherwise the name
- * of its file; empty if neither fits. */
-static const char *scene_name(struct app *app)
+/* Return the columns to which names of closed views are shortened, so that all titles and the scene's fit. */
+static int fit_names(const struct app *app, int scene)
 {
-    const char *path = app->document.path ? app->document.path : "", *slash = strrchr(path, '/');
-    const char *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
-    LOCAL_TEXT(file);
-    ceduo_text_append(&file, ceduo_document_unsaved(&app->document) ? UNSAVED : "");
-    ceduo_text_append_escaped_n(&file, base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
-    const char *names[] = {scene_title(app), *base ? ceduo_arena_string(app->scratch, ceduo_text_string(&file)) : ""};
-    for (size_t i = 0; i < 2; i++)
-        if (all_columns(app, NAME_SHORT) + scene_columns(app, names[i]) <= app->width)
-            return names[i];
-    return "";
-}
-
-/* Return the columns to which names of closed views are shortened, so that all titles and the scene's name fit. */
-static int fit_names(const struct app *app, const char *name)
-{
-    int scene = *name ? scene_columns(app, name) : 0, max = NAME_WANTED;
+    int max = NAME_WANTED;
+    if (scene > 0) /* space for the mark of unsaved work, which may come */
+        scene += SCENE_GAP + (ceduo_document_unsaved(&app->document) ? 0 : UNSAVED_WIDTH);
     while (max > NAME_MIN && all_columns(app, max) + (max > NAME_SHORT ? scene : 0) > app->width)
         max--;
     return max;
 }
 
-/* Draw the titles of the views, and the scene's name. Return true if there is one. */
+/* Draw the titles of the views, and the scene's. Return true if there is one. */
 static bool draw_title(struct app *app)
 {
-    const char *name = scene_name(app);
-    int x = 0, max = fit_names(app, name);
+    const char *title = scene_title(app);
+    int x = 0, scene = scene_columns(app, title), max = fit_names(app, scene);
     for (int v = 0; v < VIEW_COUNT; v++) {
         int columns = name_columns(app, v, max);
         ceduo_canvas_draw_text(&app->cells->canvas, x, 0, columns, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
@@ -95,11 +85,27 @@ static bool draw_title(struct app *app)
         ceduo_app_add_hit(app, (struct hit){.area = {x, 0, columns, 1}, .key = ceduo_actions[ACTION_VIEW_SLOPE + v].key});
         x += columns;
     }
-    ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 0, CEDUO_ROLE_TITLE, name);
-    return *name;
+    ceduo_canvas_draw_text(&app->cells->canvas, app->width - scene, 0, scene, CEDUO_ROLE_TITLE, title);
+    return scene > 0;
 }
 
-/* Draw the answer for the option shown, with the progress of the uncertainty while that may change the answer. */
+/* True if the answer depends on its uncertainty. */
+static bool is_open(enum ceduo_judgement judgement)
+{
+    return judgement != CEDUO_JUDGEMENT_CANNOT_JUDGE && judgement != CEDUO_JUDGEMENT_UNANSWERED;
+}
+
+/* Return what is being computed, for the end of the answer's line, the only place that shows it: the uncertainty, or finer
+ * figures. */
+static const char *progress_words(const struct app *app, enum ceduo_judgement judgement)
+{
+    double share = ceduo_live_uncertainty_progress(&app->live, &app->document.file, app->option);
+    if (is_open(judgement) && !isnan(share))
+        return ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
+    return app->live.busy ? _(" refining \xe2\x80\xa6") : "";
+}
+
+/* Draw the answer for the option shown, and what is being computed. */
 static void draw_verdict(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
@@ -108,10 +114,9 @@ static void draw_verdict(struct app *app)
         return;
     struct ceduo_subject subject = ceduo_subject_find(ceduo_app_report(app), app->option, r->last_control);
     enum ceduo_judgement judgement = subject.outcome.answer;
-    bool open = judgement != CEDUO_JUDGEMENT_CANNOT_JUDGE && judgement != CEDUO_JUDGEMENT_UNANSWERED;
-    double share = open ? ceduo_live_uncertainty_progress(&app->live, &app->document.file, app->option) : NAN;
-    const char *progress = isnan(share) ? "" : ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
-    subject.preliminary = !isnan(share);
+    const char *progress = progress_words(app, judgement);
+    subject.preliminary =
+        is_open(judgement) && !isnan(ceduo_live_uncertainty_progress(&app->live, &app->document.file, app->option));
     ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE - ceduo_utf8_width(progress));
     ceduo_canvas_draw_text(&app->cells->canvas, 1, 1, app->width - 1,
                            judgement == CEDUO_JUDGEMENT_UNANSWERED ? CEDUO_ROLE_TITLE
@@ -266,8 +271,8 @@ static void move_form(struct app *app, int lines)
     ceduo_form_move(ceduo_app_form(app), lines, 0);
 }
 
-/* Draw the belt and the option shown if there are several, and the position in the form. */
-static void draw_form_head(struct app *app, struct ceduo_area area)
+/* Return the belt and the option shown if there are several, and the position in the form. */
+static const char *form_head(struct app *app)
 {
     const struct form *form = ceduo_app_form(app);
     size_t belts = ceduo_app_option(app)->belts_count, options = app->document.file.scene.options_count;
@@ -283,18 +288,38 @@ static void draw_form_head(struct app *app, struct ceduo_area area)
     const char *position = ceduo_app_position(app, &form->lines, (int)form->row);
     if (position[0])
         ceduo_text_append_joined(&head, head.length > 0 ? " \xc2\xb7 " : "", "%s", position);
-    ceduo_canvas_draw_text(&app->cells->canvas, area.left, area.top, area.width, CEDUO_ROLE_TITLE, ceduo_text_string(&head));
+    return ceduo_arena_string(app->scratch, ceduo_text_string(&head));
+}
+
+/* Draw the head at the right end of a heading in the first line of the form. Return false if there is no space for it. */
+static bool draw_head_beside(struct app *app, struct ceduo_area area)
+{
+    const struct form *form = ceduo_app_form(app);
+    const struct form_row *row = (size_t)form->lines.first < form->n ? &form->rows[form->lines.first] : NULL;
+    const char *head = form_head(app);
+    int width = ceduo_cells_label_width(app->charset, head);
+    if (!row || row->kind != FORM_HEADING || ceduo_cells_label_width(app->charset, row->label) + 2 + width > area.width)
+        return false;
+    ceduo_canvas_label_right(&app->cells->canvas, area.left + area.width - 1, area.top, CEDUO_ROLE_TITLE, head);
+    return true;
 }
 
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
 {
     const struct popup *p = app->popup && app->popup->kind == POPUP_FIELD ? app->popup : NULL;
     struct form *form = ceduo_app_form(app);
-    struct ceduo_area head = cut_top(&area, area.height > 0), cell;
+    struct ceduo_area cell;
+    if (area.height <= 0)
+        return;
+    ceduo_form_scroll(form, area);
+    if (!draw_head_beside(app, area)) { /* a line of its own */
+        struct ceduo_area head = cut_top(&area, 1);
+        ceduo_form_scroll(form, area);
+        ceduo_canvas_draw_text(&app->cells->canvas, head.left, head.top, head.width, CEDUO_ROLE_TITLE, form_head(app));
+    }
     ceduo_form_draw(form, app->cells, area, p ? p->fields[0].line.text : NULL);
     if (area.height <= 0)
         return;
-    draw_form_head(app, head);
     ceduo_app_add_hit(app, (struct hit){.area = area, .click = click_form, .first = form->lines.first, .wheel = move_form});
     if (ceduo_form_find_cell(form, &cell))
         ceduo_app_add_hit(app, (struct hit){.area = cell, .key = K_ENTER, .wheel = move_form});

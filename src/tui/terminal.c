@@ -22,7 +22,11 @@
 
 /* ---- colours ---- */
 
-/* Style of each role. Colour is never the only sign: words and symbols repeat the meaning. */
+#define BRIGHT 8 /* difference between a colour and its bright form */
+
+/* Style of each role, in the 16 colours of the terminal. Colour is never the only sign: words and symbols repeat the meaning.
+ * GOOD and BAD are blue and red or orange: people with any kind of colour vision tell them apart. In the usual palettes the
+ * pairs have the contrast that WCAG 2.2 requires (tests/tui/test_colours.py). */
 static const struct role_style {
     short dark, light; /* curses colours of each theme, -1: default of the terminal */
     attr_t attributes;
@@ -32,20 +36,20 @@ static const struct role_style {
     [CEDUO_ROLE_DIM] = {-1, -1, A_DIM},
     [CEDUO_ROLE_TITLE] = {-1, -1, A_BOLD},
     [CEDUO_ROLE_AXIS] = {-1, -1, A_DIM},
-    [CEDUO_ROLE_GROUND] = {COLOR_YELLOW, COLOR_BLACK, A_NORMAL},
+    [CEDUO_ROLE_GROUND] = {COLOR_YELLOW, -1, A_NORMAL},
     [CEDUO_ROLE_CLOUD] = {COLOR_CYAN, COLOR_BLUE, A_NORMAL},
-    [CEDUO_ROLE_ENVELOPE] = {COLOR_BLUE, COLOR_BLUE, A_NORMAL},
+    [CEDUO_ROLE_ENVELOPE] = {COLOR_CYAN, COLOR_BLUE, A_NORMAL},
     [CEDUO_ROLE_MEAN] = {-1, -1, A_BOLD},
-    [CEDUO_ROLE_TRAJECTORY] = {COLOR_MAGENTA, COLOR_MAGENTA, A_BOLD},
-    [CEDUO_ROLE_STEM] = {COLOR_GREEN, COLOR_GREEN, A_NORMAL},
-    [CEDUO_ROLE_STOOL] = {COLOR_GREEN, COLOR_GREEN, A_NORMAL},
-    [CEDUO_ROLE_BELT] = {COLOR_GREEN, COLOR_GREEN, A_NORMAL},
-    [CEDUO_ROLE_CONTROL] = {COLOR_RED, COLOR_RED, A_NORMAL},
-    [CEDUO_ROLE_GOOD] = {COLOR_GREEN, COLOR_GREEN, A_BOLD},
-    [CEDUO_ROLE_BAD] = {COLOR_RED, COLOR_RED, A_BOLD},
-    [CEDUO_ROLE_WARN] = {COLOR_YELLOW, COLOR_RED, A_NORMAL},
+    [CEDUO_ROLE_TRAJECTORY] = {COLOR_MAGENTA + BRIGHT, COLOR_MAGENTA, A_BOLD},
+    [CEDUO_ROLE_STEM] = {COLOR_GREEN, -1, A_NORMAL},
+    [CEDUO_ROLE_STOOL] = {COLOR_GREEN, -1, A_NORMAL},
+    [CEDUO_ROLE_BELT] = {COLOR_GREEN, -1, A_NORMAL},
+    [CEDUO_ROLE_CONTROL] = {COLOR_RED + BRIGHT, COLOR_RED, A_NORMAL},
+    [CEDUO_ROLE_GOOD] = {COLOR_CYAN, COLOR_BLUE, A_BOLD},
+    [CEDUO_ROLE_BAD] = {COLOR_RED + BRIGHT, COLOR_RED, A_BOLD},
+    [CEDUO_ROLE_WARN] = {COLOR_YELLOW + BRIGHT, COLOR_MAGENTA, A_NORMAL},
     [CEDUO_ROLE_BARE] = {COLOR_CYAN, COLOR_BLUE, A_NORMAL},
-    [CEDUO_ROLE_FOREST] = {COLOR_GREEN, COLOR_GREEN, A_NORMAL},
+    [CEDUO_ROLE_FOREST] = {COLOR_GREEN, -1, A_NORMAL},
     [CEDUO_ROLE_CURSOR] = {-1, -1, A_REVERSE},
 };
 
@@ -208,9 +212,12 @@ static void show_screen(struct app *app, bool colours)
             uint32_t code = ceduo_cells_glyph(app->cells, x, y);
             const struct role_style *role_style = &role_styles[ceduo_cells_role(app->cells, x, y)];
             short colour = app->theme == 0 ? role_style->dark : app->theme == 1 ? role_style->light : -1;
+            bool as_bold = colour >= BRIGHT && colour >= COLORS; /* a terminal of 8 colours shows bold as bright */
+            attr_t attributes = role_style->attributes | (as_bold ? A_BOLD : A_NORMAL);
+            short pair = colours && colour >= 0 ? (short)(colour - (as_bold ? BRIGHT : 0) + 1) : 0;
             wchar_t text[2] = {(wchar_t)(code ? code : ' '), 0};
             cchar_t cell;
-            if (setcchar(&cell, text, role_style->attributes, colours && colour >= 0 ? (short)(colour + 1) : 0, NULL) == OK)
+            if (setcchar(&cell, text, attributes, pair, NULL) == OK)
                 mvadd_wch(y, x, &cell);
         }
     wnoutrefresh(stdscr);
@@ -487,7 +494,7 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     if (colours_wanted()) {
         start_color();
         use_default_colors();
-        for (short c = 0; c < 8; c++)
+        for (short c = 0; c < 2 * BRIGHT && c < COLORS; c++)
             init_pair((short)(c + 1), c, -1);
     }
     raw();

@@ -26,8 +26,7 @@ static const struct tour_step steps[] = {
      ""},
     {NULL, NULL,
      N_("Line 2 is the answer: in how many of the years ahead too many rocks exceed the limit. The right column has the "
-        "figures "
-        "of today."),
+        "figures of today."),
      ""},
 
     {PAPER, N_("How sure is the answer?"), N_("View 7 computes how far the answer can be off if the inputs are uncertain."),

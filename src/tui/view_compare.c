@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 5: the silvicultural options side by side, today and over one rotation. */
+/* View 5: the silvicultural options side by side, today and over the years. */
 #include "base/language.h"
 #include "popup.h"
 #include "view/page_parts.h"
@@ -13,17 +13,20 @@ static void build_compare(struct app *app, struct form *form)
     form->row = app->option + 1; /* below the column heads */
 }
 
-enum { PANE_TABLE, PANE_COMPARE, PANE_TRADEOFF, PANES };
+enum { PANE_TABLE, PANE_AHEAD, PANE_COMPARE, PANE_TRADEOFF, PANES };
 
 #define HEADS            3   /* lines above the table */
 #define WORDS_MIN        4   /* min. lines of the text below */
+#define AHEAD_MIN        12  /* min. lines of the curves below the text */
+#define HEIGHT_BOTH      28  /* lines for table, text and curves */
 #define TRADEOFF_MIN     11  /* min. lines of the picture of protection against yield */
-#define SIDE_BY_SIDE_MIN 128 /* columns for table and picture side by side */
+#define SIDE_BY_SIDE_MIN 128 /* columns for pictures next to table and text */
 #define TABLE_WIDTH      84
 
 static void draw_compare_picture(struct app *app, enum ceduo_plot plot, struct ceduo_area area)
 {
     struct ceduo_picture p = ceduo_app_picture(app);
+    p.no_legend = ceduo_app_state(app)->pane == PANE_TABLE; /* the table has names and numbers */
     ceduo_app_draw_plot(app, plot, area, &p);
 }
 
@@ -62,11 +65,19 @@ static void add_option_hits(struct app *app, struct ceduo_area area, int lines, 
     ceduo_app_add_hit(app, (struct hit){.area = area, .key = K_ENTER, .wheel = step_options});
 }
 
-/* Draw the table around the option under the cursor, the text below it, and a picture if there is space. */
+/* Add the text below the table. */
+static void add_words(struct app *app, struct ceduo_page *page, int width)
+{
+    struct ceduo_pane pane = ceduo_app_pane(app, 0);
+    page->width = (size_t)width - 2;
+    ceduo_pane_message(page, &pane);
+}
+
+/* Draw the table around the option under the cursor, and the text below it. */
 static void draw_options(struct app *app, struct ceduo_area area)
 {
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
-    struct ceduo_page table = {.width = (size_t)area.width}, text = {.width = (size_t)area.width - 2};
+    struct ceduo_page table = {.width = (size_t)area.width}, text = {0};
     size_t n = app->live.verdict.n,
            max_rows = area.height > HEADS + WORDS_MIN + 1 ? (size_t)(area.height - HEADS - WORDS_MIN - 1) : 1;
     size_t shown = n <= max_rows ? n : max_rows - (max_rows > 1);
@@ -81,34 +92,61 @@ static void draw_options(struct app *app, struct ceduo_area area)
                         first + shown, n);
     cut_top(&area, ceduo_page_draw(&table, &app->cells->canvas, area, 0) + 1);
     ceduo_page_free(&table);
-    ceduo_pane_message(&text, &pane);
-    int lines = ceduo_page_draw(&text, &app->cells->canvas, (struct ceduo_area){0}, 0);
-    struct ceduo_area words = cut_top(&area, lines < area.height ? lines : area.height);
-    words.width -= 2;
-    ceduo_app_draw_page(app, words, &text);
-    cut_top(&area, 1);
-    if (n > 1 && area.height >= TRADEOFF_MIN)
-        draw_compare_picture(app, CEDUO_PLOT_TRADEOFF, area);
+    add_words(app, &text, area.width);
+    area.width -= 2;
+    ceduo_app_draw_page(app, area, &text);
 }
 
-/* Draw the table, with a picture at its side if there is space, or one picture. */
+/* Return the lines of the curves below table and text: the rest, or some if the text has to scroll. */
+static int curve_lines(struct app *app, struct ceduo_area area)
+{
+    struct ceduo_page text = {0};
+    int table = (int)app->live.verdict.n + HEADS;
+    add_words(app, &text, area.width);
+    int rest = area.height - table - ceduo_page_draw(&text, &app->cells->canvas, (struct ceduo_area){0}, 0) - 1;
+    ceduo_page_free(&text);
+    int scrolled = area.height - table - WORDS_MIN - 2, half = area.height / 2;
+    scrolled = scrolled < AHEAD_MIN ? AHEAD_MIN : scrolled < half ? scrolled : half;
+    return rest > scrolled ? rest : scrolled;
+}
+
+/* Draw table and text, with the curves of the years below them, and the other pictures next to them, if there is space. */
+static void draw_all(struct app *app, struct ceduo_area area)
+{
+    bool wide = area.width >= SIDE_BY_SIDE_MIN && app->live.verdict.n > 1;
+    struct ceduo_area text = area;
+    if (wide)
+        text.width = TABLE_WIDTH;
+    if (area.height >= HEIGHT_BOTH) {
+        int lines = curve_lines(app, text);
+        draw_compare_picture(app, CEDUO_PLOT_AHEAD, cut_bottom(&area, lines));
+        cut_bottom(&area, 1); /* position of the text */
+        text.height = area.height;
+    }
+    if (wide) {
+        int rows = (int)app->live.verdict.n + 2, rest = area.height - rows - 1;
+        area.left += TABLE_WIDTH + 2;
+        area.width -= TABLE_WIDTH + 2;
+        if (rest >= TRADEOFF_MIN)
+            draw_compare_picture(app, CEDUO_PLOT_TRADEOFF, cut_bottom(&area, rest));
+        draw_compare_picture(app, CEDUO_PLOT_COMPARE, area);
+    }
+    draw_options(app, text);
+}
+
+/* Draw everything that fits around the table, or one picture. */
 static void draw_compare(struct app *app, struct ceduo_area area)
 {
+    static const enum ceduo_plot plots[PANES] = {CEDUO_PLOT_NONE, CEDUO_PLOT_AHEAD, CEDUO_PLOT_COMPARE, CEDUO_PLOT_TRADEOFF};
     int pane = ceduo_app_state(app)->pane;
-    bool side_by_side = area.width >= SIDE_BY_SIDE_MIN && app->live.verdict.n > 1;
-    struct ceduo_area table = area, picture = area;
-    if (pane != PANE_TABLE)
-        ceduo_app_show_hint(app, pane == PANE_COMPARE ? _("Tab: protection against yield; up, down: another option")
-                                                      : _("Tab: back to the table; up, down: another option"));
-    if (pane == PANE_TABLE && side_by_side) {
-        table.width = TABLE_WIDTH;
-        picture.left += TABLE_WIDTH + 2;
-        picture.width -= TABLE_WIDTH + 2;
+    if (pane == PANE_TABLE) {
+        draw_all(app, area);
+        return;
     }
-    if (pane != PANE_TABLE || side_by_side)
-        draw_compare_picture(app, pane == PANE_TRADEOFF ? CEDUO_PLOT_TRADEOFF : CEDUO_PLOT_COMPARE, picture);
-    if (pane == PANE_TABLE)
-        draw_options(app, table);
+    ceduo_app_show_hint(app, pane == PANE_AHEAD     ? _("Tab: the options today; up, down: another option")
+                             : pane == PANE_COMPARE ? _("Tab: protection against yield; up, down: another option")
+                                                    : _("Tab: back to the table; up, down: another option"));
+    draw_compare_picture(app, plots[pane], area);
 }
 
 static void copy_option(struct app *app)
@@ -165,7 +203,7 @@ const struct view ceduo_view_compare = {.panes = PANES,
                                         .result = true,
                                         .build = build_compare,
                                         .draw = draw_compare,
-                                        .bindings = {compare_bindings, compare_bindings, compare_bindings},
+                                        .bindings = {compare_bindings, compare_bindings, compare_bindings, compare_bindings},
                                         .bar = {KEY(ADD, N_("add")), KEY(NEXT_PANE, N_("picture")), KEY(DUPLICATE, N_("copy")),
                                                 KEY(DELETE, N_("delete")), KEY(EDIT, N_("name")),
                                                 KEY(PAGE_DOWN, N_("scroll"))}};

@@ -270,7 +270,10 @@ static void draw_observed(struct app *app, struct ceduo_area area)
         append_comparison(app, &page);
     int max = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0) - 1;
     int height = max > area.height / 2 ? max : area.height / 2;
-    if (stops && height >= PICTURE_MIN) {
+    if (file->observations_count == 0 && max >= PICTURE_MIN) { /* the rocks that would be compared */
+        struct ceduo_picture picture = ceduo_app_picture(app);
+        ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, cut_bottom(&area, max), &picture);
+    } else if (stops && height >= PICTURE_MIN) {
         struct ceduo_area top = cut_top(&area, height);
         ceduo_plot_observed(&app->cells->canvas, &top, stops, file->scene.slope.origin_x);
         cut_top(&area, 1);

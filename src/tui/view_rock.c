@@ -24,7 +24,7 @@ static void build_rock(struct app *app, struct form *form)
                                         [CEDUO_SHAPE_ELLIPSOID] = "shape axes_m",
                                         [CEDUO_SHAPE_BLOCK] = "shape axes_m"};
     const struct node *blocks = ceduo_document_node(&app->document, "blocks");
-    ceduo_form_heading(form, blocks ? _("Rock: shape and density; sizes come from the blocks") : _("Rock"));
+    ceduo_form_heading(form, blocks ? _("Rock; sizes come from the blocks") : _("Rock"));
     ceduo_form_fields(form, "rock.", sizes[app->document.file.scene.rock.shape]);
     ceduo_form_fields(form, "rock.", "mass_kg density_kg_m3");
     if (blocks)
@@ -50,7 +50,22 @@ static void build_rock(struct app *app, struct form *form)
     ceduo_form_rest(form, "page");
 }
 
-#define WIDE 70 /* columns for a remark */
+#define WIDE       70 /* columns for a remark */
+#define SLOPE_MIN  80 /* columns for the slope next to the form */
+#define FORM_WIDTH 46
+
+/* Draw the slope with the energies below it, next to the form, which gets the rest of the area. */
+static void draw_trajectories(struct app *app, struct ceduo_area *area)
+{
+    struct ceduo_picture picture = ceduo_app_picture(app);
+    struct ceduo_span span = {0};
+    struct ceduo_area picture_area = {area->left + FORM_WIDTH + 2, area->top, area->width - FORM_WIDTH - 2, area->height};
+    area->width = FORM_WIDTH;
+    picture.span = &span;
+    picture.bands = true;
+    ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, cut_top(&picture_area, picture_area.height * 3 / 5), &picture);
+    ceduo_app_draw_plot(app, CEDUO_PLOT_ENERGY, picture_area, &picture);
+}
 
 static void draw_rock(struct app *app, struct ceduo_area area)
 {
@@ -72,6 +87,8 @@ static void draw_rock(struct app *app, struct ceduo_area area)
     int lines = ceduo_app_count_lines(app, ceduo_text_string(&text), area.width);
     ceduo_app_draw_text(app, cut_bottom(&area, lines), CEDUO_ROLE_DIM, &text);
     cut_bottom(&area, 1);
+    if (area.width >= SLOPE_MIN)
+        draw_trajectories(app, &area);
     ceduo_app_draw_form(app, area);
 }
 

@@ -307,7 +307,80 @@ static void add_slope_hits(struct app *app, struct ceduo_area area)
     ceduo_app_add_hit(app, (struct hit){.area = area, .key = K_ENTER});
 }
 
-/* Draw the picture, with the form below it if the form has the focus. */
+/* Layout of the view: the picture of the slope with strips below it on the same axis, and the form below or next to them. */
+struct layout {
+    struct ceduo_area form; /* no height: not shown */
+    int slope;              /* lines of the slope */
+    int strips, strip;      /* number of strips; lines of each */
+    int columns;            /* columns of the pictures */
+};
+
+#define AXES             4  /* columns of the left axis, and lines of names, of the bottom axis and of belts */
+#define NAMES            14 /* columns for the names of curves, on the right of strips */
+#define SHORT_NAMES      6  /* the same by the index */
+#define FORM_COLUMNS_MIN 40 /* columns of the form next to the pictures */
+#define BESIDE_LINES     24 /* min. lines for the form next to the pictures */
+#define BAND_LINES       7  /* min. lines of a strip with a band */
+#define STRIP_SHARE      5  /* share of the lines for each strip next to the form */
+
+/* Return the dots of a metre in a picture of the slope at true scale. */
+static double slope_scale(const struct app *app, int columns, int lines)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    double drop = s->z[0] - s->z[s->vertices - 1];
+    return fmin(2 * (columns - AXES) / slope_length(app), 4 * (lines - AXES) / fmax(drop, 1));
+}
+
+/* Return the lines of the form up to the last control, which is always shown if there is space. */
+static int count_form_lines(const struct form *form)
+{
+    int lines = 0;
+    for (size_t i = 0; i < form->n; i++)
+        if (strncmp(form->rows[i].list, "controls", 8) == 0)
+            lines = (int)i + 1;
+    return lines;
+}
+
+/* Put the form below the pictures if the form has the focus. */
+static struct layout stack_layout(struct ceduo_area area, int pane, int form_lines)
+{
+    int third = area.height > 45 ? 4 * area.height / 9 : area.height / 3 + 1, half = area.height / 2;
+    form_lines = form_lines < half ? form_lines : half;
+    form_lines = pane != PANE_FORM ? 0 : form_lines > third ? form_lines : third;
+    int rows = area.height - form_lines + (pane == PANE_FORM);
+    struct layout l = {.columns = area.width};
+    l.strips = pane == PANE_PLACE ? 0 : rows >= 24 ? 2 : rows >= 12 ? 1 : 0; /* along the slope: all lines at true scale */
+    l.strip = rows >= 24 ? rows / 4 : 5;
+    l.slope = rows - l.strip * l.strips - (pane == PANE_FORM);
+    l.form = cut_bottom(&area, form_lines);
+    return l;
+}
+
+/* Put the form next to the pictures. Along the slope, leave the strips out if the slope then is larger. */
+static struct layout place_beside(const struct app *app, struct ceduo_area area, int pane)
+{
+    struct layout l = {.strips = 2, .strip = area.height / STRIP_SHARE, .columns = area.width - FORM_COLUMNS_MIN - 2};
+    l.slope = area.height - 2 * (area.height / STRIP_SHARE) - 2;
+    if (pane == PANE_PLACE && slope_scale(app, l.columns, area.height) > slope_scale(app, l.columns, l.slope))
+        l = (struct layout){.slope = area.height, .columns = l.columns};
+    int needed = (int)ceil(slope_length(app) * slope_scale(app, l.columns, l.slope) / 2) + AXES + (l.strips > 0 ? NAMES : 1);
+    l.columns = needed < l.columns ? needed : l.columns;
+    l.form = (struct ceduo_area){area.left + l.columns + 2, area.top, area.width - l.columns - 2, area.height};
+    return l;
+}
+
+/* Choose the layout with the larger slope. */
+static struct layout choose_layout(struct app *app, struct ceduo_area area)
+{
+    int pane = ceduo_app_state(app)->pane, wide = area.width - FORM_COLUMNS_MIN - 2;
+    struct layout below = stack_layout(area, PANE_FORM, 0);
+    bool wide_enough = wide >= FORM_COLUMNS_MIN && area.height >= BESIDE_LINES &&
+                       slope_scale(app, wide, area.height - 2 * (area.height / STRIP_SHARE) - 2) >
+                           slope_scale(app, below.columns, below.slope);
+    return wide_enough ? place_beside(app, area, pane) : stack_layout(area, pane, count_form_lines(ceduo_app_form(app)));
+}
+
+/* Draw the pictures and the form. */
 static void draw_slope(struct app *app, struct ceduo_area area)
 {
     ceduo_app_trace_rock(app);
@@ -318,23 +391,16 @@ static void draw_slope(struct app *app, struct ceduo_area area)
     double mark = cursor_x(app);
     cursor->span = (struct ceduo_span){0};
     picture.span = &cursor->span;
-    bool picture_only = ceduo_app_state(app)->pane != PANE_FORM;
+    bool picture_only = ceduo_app_state(app)->pane != PANE_FORM, has_cursor = ceduo_app_state(app)->pane == PANE_PLACE;
     double shown = shown_length(app);
     if (shown < slope_length(app)) { /* stretch around the cursor */
         picture.from = fmin(fmax(0, mark - shown / 2), slope_length(app) - shown);
         picture.to = picture.from + shown;
     }
-    ceduo_app_draw_form(app, cut_bottom(&area, picture_only       ? 0
-                                               : area.height > 45 ? 4 * area.height / 9
-                                                                  : area.height / 3 + 1));
+    struct layout layout = choose_layout(app, area);
+    ceduo_app_draw_form(app, layout.form);
+    area.width = layout.columns;
     struct ceduo_area whole = area;
-    bool has_cursor = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: use all rows for the slope at true scale */
-    int rows = area.height + !picture_only,
-        strips = has_cursor   ? 0
-                 : rows >= 24 ? 2
-                 : rows >= 13 ? 1
-                              : 0,
-        strip = rows >= 24 ? rows / 4 : 5;
     bool on_control =
         !picture_only && form_row && strcmp(form_row->list, "controls") == 0 && form_row->index < scene->controls_count;
     if (on_control)
@@ -346,13 +412,18 @@ static void draw_slope(struct app *app, struct ceduo_area area)
         hint_cursor(app);
     else if (picture_only)
         ceduo_app_show_hint(app, _("left, right: another rock; down, up: along its trajectory; Tab: along the slope"));
-    ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, cut_top(&area, rows - strip * strips - !picture_only), &picture);
+    struct ceduo_area slope = cut_top(&area, layout.slope);
+    if (layout.form.top == whole.top && scene->simulation.contact_model == CEDUO_CONTACT_MODEL_INDEX)
+        slope.width -= SHORT_NAMES;
+    ceduo_app_draw_plot(app, CEDUO_PLOT_PROFILE, slope, &picture);
     picture.no_x_axis = true;
-    if (strips > 1)
-        ceduo_app_draw_plot(app, CEDUO_PLOT_HEIGHT, cut_top(&area, strip), &picture);
-    picture.no_x_axis = strips < 2;
-    if (strips > 0)
-        ceduo_app_draw_plot(app, CEDUO_PLOT_ENERGY, cut_top(&area, strip), &picture);
+    picture.bands = layout.strip >= BAND_LINES;
+    if (layout.strips > 1)
+        ceduo_app_draw_plot(app, CEDUO_PLOT_HEIGHT, cut_top(&area, layout.strip), &picture);
+    picture.no_x_axis = layout.strips < 2;
+    if (layout.strips > 0)
+        ceduo_app_draw_plot(app, CEDUO_PLOT_ENERGY, cut_top(&area, layout.strip + (layout.form.top == whole.top ? 2 : 0)),
+                            &picture);
     add_slope_hits(app, whole);
 }
 

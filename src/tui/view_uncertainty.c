@@ -21,14 +21,16 @@ static void build_ranges(struct app *app, struct form *form)
 
 #define WORDS_MIN 4 /* min. lines of the text below the picture */
 
-/* Draw the picture and its text, which scroll together, and the ranges of the scene. */
+#define AHEAD_MIN 12 /* min. lines of the curves */
+
+/* Draw the picture and its text, which scroll together, and the ranges of the scene below, which get the rest of the lines.
+ * Without ranges the curves of the years get it. */
 static void draw_uncertainty(struct app *app, struct ceduo_area area)
 {
-    ceduo_app_draw_form(app, cut_bottom(&area, 1 + (ceduo_app_form(app)->n > 1 ? area.height / 4 : 1)));
-    area.width -= 2;
-    struct ceduo_page page = {.width = (size_t)area.width};
+    int width = area.width - 2, rows = (int)ceduo_app_form(app)->n, form = 1 + (rows > 1 ? area.height / 4 : 1);
+    struct ceduo_page page = {.width = (size_t)width};
     struct ceduo_picture picture = ceduo_app_picture(app);
-    struct ceduo_pane pane = ceduo_app_pane(app, area.height);
+    struct ceduo_pane pane = ceduo_app_pane(app, area.height - form);
     const struct ceduo_uncertainty_report *r = pane.report->uncertainty;
     bool pending = app->rotation_mean && r && r->answer && !r->rotation_mean;
     picture.uncertainty = pending ? NULL : r;
@@ -44,6 +46,14 @@ static void draw_uncertainty(struct app *app, struct ceduo_area area)
                         r->rotation_mean ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
                         (unsigned long long)r->answer->evaluations,
                         (unsigned long long)(r->rotation_mean ? CEDUO_UNCERTAINTY_YEAR_ROCKS : r->rocks));
+    int rest = area.height - 1 - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0);
+    form = rows > 1 && rest > form ? rest < rows + 1 ? rest : rows + 1 : form;
+    ceduo_app_draw_form(app, cut_bottom(&area, form));
+    rest -= form;
+    if (app->live.result && rest > AHEAD_MIN)
+        ceduo_app_draw_plot(app, CEDUO_PLOT_AHEAD, cut_bottom(&area, rest), &picture);
+    area.width = width;
+    area.height -= rest > AHEAD_MIN; /* the position of the text */
     ceduo_app_draw_page(app, area, &page);
 }
 

@@ -41,7 +41,7 @@ struct ceduo_page_column {
 enum ceduo_page_flag {
     COL_WRAP = 1 << 1,   /* never cut: wraps into the next line */
     COL_SHRINK = 1 << 2, /* as wide as its widest cell, at least `width` */
-    COL_GROW = 1 << 3,   /* at least `width`, takes the remaining width; longer text is shortened in the middle */
+    COL_GROW = 1 << 3,   /* at least `width`, takes the remaining width; longer text loses what other cells have, too */
 };
 
 /* Columns that do not fit are dropped before names are cut, highest rank first (COL_MINOR to 9). */

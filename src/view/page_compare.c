@@ -23,6 +23,7 @@
 
 /* Name, head, width, flags. BAR draws the column after it. */
 #define COLUMN_LIST(X)                                                                                                         \
+    X(NUMBER, "", -1, COL_SHRINK)                                                                                              \
     X(NAME, N_("option"), 10, COL_GROW)                                                                                        \
     X(BAR, "", 6, COL_GROW | COL_PRIORITY(5))                                                                                  \
     X(TODAY, NULL, -5, COL_SHRINK)                                                                                             \
@@ -75,7 +76,7 @@ static const struct ceduo_page_column columns[COLUMNS] = {
 #undef X
 };
 
-#define COLUMNS_SHOWN 15
+#define COLUMNS_SHOWN 16
 
 /* Columns of each table, by the index and with rocks through the forest. Columns that are empty in all rows are dropped. */
 static const enum column column_sets[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
@@ -85,9 +86,9 @@ static const enum column column_sets[CEDUO_OPTIONS_KINDS][2][COLUMNS_SHOWN] = {
                              {NAME, TODAY, ENERGY, TO_FIRST, ADC, CONTACT, FREE_RUN_SHARE, FREE_RUN}},
     [CEDUO_OPTIONS_YEARS] = {{NAME, WORST_ADC, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING},
                              {NAME, MEAN, ROTATION, WORST, FAIL, FAIL_CONTACT, FAIL_FREE_RUN, FELLED, STANDING}},
-    [CEDUO_OPTIONS_PANE] = {{NAME, ADC, PER_100M, WORST_ADC, FAIL_CONTACT, FELLED, CONTACT, FREE_RUN},
-                            {NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, FENCE, FELLED, MARK, ENERGY, CONTACT, FREE_RUN,
-                             YEARS}},
+    [CEDUO_OPTIONS_PANE] = {{NUMBER, NAME, ADC, PER_100M, WORST_ADC, FAIL_CONTACT, FELLED, CONTACT, FREE_RUN},
+                            {NUMBER, NAME, TODAY, RANGE, MEAN, MEAN_RANGE, WORST, FAIL, FENCE, FELLED, MARK, ENERGY, CONTACT,
+                             FREE_RUN, YEARS}},
     [CEDUO_OPTIONS_BARS] = {{NAME, BAR, ADC, CONTACT, BAR, PER_100M, BAR, RESIDUAL},
                             {NAME, BAR, TODAY, ENERGY, BAR, MEAN_KJ, BAR, ADC, CONTACT}},
     [CEDUO_OPTIONS_LAWS] = {{NAME}, {NAME, LAW, TODAY, MEAN_KJ, ALT_LAW, ALT_SHARE, ALT_KJ}},
@@ -228,6 +229,8 @@ static const char *format_cell(enum column column, const struct ceduo_subject *s
     bool rates = has_rates(s->report), judged = c && !c->last_summary->nothing;
     double remaining = h && column >= WEAK && column <= STRONG ? h->intensity[column - WEAK].remaining_share : NAN;
     switch (column) {
+    case NUMBER:
+        return s->report->result->scene->options_count > 1 ? format_to(buffer, "%zu", s->option + 1) : "";
     case TODAY:
         return rates && s->wooded ? ceduo_words_return_period(ceduo_judged_rate(s->wooded), buffer)
                                   : format_share(s->today, CEDUO_NO_ESTIMATE, false, unknown, buffer);
@@ -355,7 +358,7 @@ static void add_option_row(struct ceduo_page *page, const enum column *set, cons
             ceduo_page_cell_role(page,
                                  column == ENERGY || column == CONTACT || column == FREE_RUN
                                      ? ceduo_plot_light_role(get_light(column, s))
-                                 : column == MARK  ? CEDUO_ROLE_CURSOR
+                                 : column == MARK  ? CEDUO_ROLE_TITLE
                                  : column == YEARS ? CEDUO_ROLE_MEAN
                                                    : CEDUO_ROLE_BLANK,
                                  format_cell(column, s, buffer));
@@ -370,6 +373,7 @@ static void begin_table(struct ceduo_page *page, const struct ceduo_report *repo
     bool years_ahead = false;
     for (; set[n]; n++) {
         chosen[n] = columns[set[n]];
+        chosen[n].gap = n > 0 && set[n] == NAME ? 1 : chosen[n].gap; /* after its number */
         years_ahead |= set[n] == MEAN;
     }
     ceduo_page_table(page, chosen, n);

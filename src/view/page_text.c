@@ -197,28 +197,7 @@ static void print_paragraph(struct printer *p, const struct ceduo_page_block *bl
 
 /* ---- cells ---- */
 
-/* Pad or truncate to `width` columns, at the end or in the middle; negative: right-aligned; 0: unlimited. */
-static void print_padded(struct printer *p, const char *string, int width, bool ends)
-{
-    size_t target = (size_t)abs(width), current = ceduo_utf8_width(string);
-    if (width < 0 && current < target)
-        append_blanks(p->text, target - current);
-    if (current <= target || target == 0) {
-        ceduo_text_append(p->text, string);
-    } else {
-        size_t tail = ends && target >= TAIL_MIN ? (target - 1) / 2 : 0;
-        const char *end = string;
-        while (ceduo_utf8_width(end) > tail)
-            end += ceduo_utf8_step(end);
-        size_t n = ceduo_utf8_cut(string, target - 1 - ceduo_utf8_width(end));
-        ceduo_text_append_n(p->text, string, n);
-        ceduo_text_append(p->text, p->plain ? "~" : "\xe2\x80\xa6");
-        ceduo_text_append(p->text, end);
-        current = ceduo_utf8_char_width(string, n) + 1 + ceduo_utf8_width(end);
-    }
-    if (width > 0 && current < target)
-        append_blanks(p->text, target - current);
-}
+#define ANY_WIDTH 400 /* no limit */
 
 /* True if a cell fits in a column with a blank before it. */
 static bool cell_fits(const struct text *cell, size_t width)
@@ -265,14 +244,130 @@ static void write_cell(const struct printer *p, struct text *to, const struct ce
     }
 }
 
+/* Two parts of a name that are kept, as bytes: [a, a_end) and [b, b_end). */
+struct parts {
+    const char *name;
+    size_t n, a, a_end, b, b_end;
+};
+
+/* Return the columns of the parts, with a mark for each gap. */
+static size_t parts_width(const struct parts *k)
+{
+    return (k->a > 0) + ceduo_utf8_char_width(k->name + k->a, k->a_end - k->a) + (k->a_end < k->b) +
+           ceduo_utf8_char_width(k->name + k->b, k->b_end - k->b) + (k->b_end < k->n);
+}
+
+/* Make the parts longer by a character: both to the right, otherwise one to the front. Return false if nothing fits. */
+static bool grow_parts(struct parts *k, size_t columns)
+{
+    bool grown = false;
+    for (int end = 0; end < 4 && !(grown && end >= 2); end++) {
+        struct parts longer = *k;
+        if (end == 0 && k->a_end < k->b)
+            longer.a_end += ceduo_utf8_step(k->name + k->a_end);
+        else if (end == 1 && k->b_end < k->n)
+            longer.b_end += ceduo_utf8_step(k->name + k->b_end);
+        else if (end == 2 && k->a_end < k->b)
+            longer.b = (size_t)(ceduo_utf8_back(k->name, k->name + k->b) - k->name);
+        else if (end == 3 && k->a > 0)
+            longer.a = (size_t)(ceduo_utf8_back(k->name, k->name + k->a) - k->name);
+        else
+            continue;
+        if (parts_width(&longer) > columns)
+            continue;
+        *k = longer;
+        grown = true;
+    }
+    return grown;
+}
+
+#define WORD_MAX 8 /* bytes of a word that is kept from its start */
+
+static bool is_word(char c)
+{
+    return c && !strchr(" ,", c);
+}
+
+/* Return the start of the word at this position, or of the next word. */
+static size_t word_start(const char *name, size_t position)
+{
+    size_t start = position;
+    while (name[start] && !is_word(name[start]))
+        start++;
+    while (is_word(name[position]) && start > 0 && is_word(name[start - 1]) && position - start < WORD_MAX)
+        start--;
+    return start > 0 && is_word(name[start]) && is_word(name[start - 1]) ? position : start; /* within a long word */
+}
+
+/* Append a name of a column, without parts that other names have, too. It keeps the first and the last difference to another
+ * name. Return false if no name differs. */
+static bool print_distinct(struct printer *p, const struct ceduo_page_block *table, size_t column, const char *name,
+                           size_t columns)
+{
+    size_t first = SIZE_MAX, last = 0, n = strlen(name);
+    const char *mark = p->plain ? "~" : "\xe2\x80\xa6";
+    for (size_t i = table->columns_count + column; i < table->cells_count; i += table->columns_count) {
+        LOCAL_TEXT(cell);
+        write_cell(p, &cell, &table->cells[i], ANY_WIDTH);
+        size_t same = 0;
+        while (same < n && name[same] == ceduo_text_string(&cell)[same])
+            same++;
+        if (same == n && cell.length == n)
+            continue;
+        while (same > 0 && ceduo_utf8_is_continuation(name[same]))
+            same--;
+        first = same < first ? same : first;
+        last = same > last ? same : last;
+    }
+    if (first == SIZE_MAX || columns < TAIL_MIN)
+        return false;
+    first = word_start(name, first);
+    last = word_start(name, last);
+    struct parts k = {name, n, first, first, last > first ? last : first, last > first ? last : first};
+    while (grow_parts(&k, columns))
+        ;
+    ceduo_text_append(p->text, k.a > 0 ? mark : "");
+    ceduo_text_append_n(p->text, name + k.a, k.a_end - k.a);
+    ceduo_text_append(p->text, k.a_end < k.b ? mark : "");
+    ceduo_text_append_n(p->text, name + k.b, k.b_end - k.b);
+    ceduo_text_append(p->text, k.b_end < n ? mark : "");
+    append_blanks(p->text, columns - parts_width(&k));
+    return true;
+}
+
+/* Pad or truncate to `width` columns, at the end or in the middle; negative: right-aligned; 0: unlimited. */
+static void print_padded(struct printer *p, const char *string, int width, bool ends)
+{
+    size_t target = (size_t)abs(width), current = ceduo_utf8_width(string);
+    if (width < 0 && current < target)
+        append_blanks(p->text, target - current);
+    if (current <= target || target == 0) {
+        ceduo_text_append(p->text, string);
+    } else {
+        size_t tail = ends && target >= TAIL_MIN ? (target - 1) / 2 : 0;
+        const char *end = string;
+        while (ceduo_utf8_width(end) > tail)
+            end += ceduo_utf8_step(end);
+        size_t n = ceduo_utf8_cut(string, target - 1 - ceduo_utf8_width(end));
+        ceduo_text_append_n(p->text, string, n);
+        ceduo_text_append(p->text, p->plain ? "~" : "\xe2\x80\xa6");
+        ceduo_text_append(p->text, end);
+        current = ceduo_utf8_char_width(string, n) + 1 + ceduo_utf8_width(end);
+    }
+    if (width > 0 && current < target)
+        append_blanks(p->text, target - current);
+}
+
 void ceduo_page_write_cell(struct text *to, const struct ceduo_page_cell *cell, size_t width, bool plain)
 {
     write_cell(&(struct printer){.plain = plain}, to, cell, width);
 }
 
-static void print_cell(struct printer *p, const struct ceduo_page_column *column, const struct ceduo_page_cell *cell, int gap,
-                       int width, enum ceduo_role role)
+static void print_cell(struct printer *p, const struct ceduo_page_block *table, size_t index, int gap, int width,
+                       enum ceduo_role role)
 {
+    const struct ceduo_page_column *column = &table->columns[index % table->columns_count];
+    const struct ceduo_page_cell *cell = &table->cells[index];
     LOCAL_TEXT(text);
     begin_piece(p, CEDUO_ROLE_TEXT, NULL);
     append_blanks(p->text, (size_t)gap);
@@ -293,13 +388,14 @@ static void print_cell(struct printer *p, const struct ceduo_page_column *column
         print_wrapped(p, ceduo_text_string(&text), (size_t)gap, (size_t)gap);
         end_line(p);
         append_blanks(p->text, (size_t)(gap + width));
-    } else {
+    } else if (!(column->flags & COL_GROW) || index < table->columns_count || width <= 0 ||
+               (int)ceduo_utf8_width(ceduo_text_string(&text)) <= width ||
+               !print_distinct(p, table, index % table->columns_count, ceduo_text_string(&text), (size_t)width)) {
         print_padded(p, ceduo_text_string(&text), width, column->flags & COL_GROW);
     }
 }
 
 #define COLUMNS_MAX 24
-#define ANY_WIDTH   400 /* no limit */
 
 /* Return the width of the widest cell in a column; set `*bars` if it has a bar. */
 static int widest_cell(const struct printer *p, const struct ceduo_page_block *table, size_t column, bool *bars)
@@ -389,7 +485,7 @@ static void print_table(struct printer *p, const struct ceduo_page_block *table)
                 width = -width;
             else if (row == 0 && i == n - 1 && c->width > 0) /* the last head is never truncated */
                 width = 0;
-            print_cell(p, c, &table->cells[row + i], get_gap(p, c, i), width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
+            print_cell(p, table, row + i, get_gap(p, c, i), width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
         }
         while (!p->drawing && p->text->length > 0 && p->text->bytes[p->text->length - 1] == ' ')
             p->text->bytes[--p->text->length] = '\0';

@@ -10,8 +10,9 @@
 #include "plot.h"
 #include "report.h"
 
-#define HEIGHT_MIN 18 /* min lines for figures that other views show, too … */
-#define HEIGHT_ALL 24 /* … and for all figures */
+#define HEIGHT_MIN    18 /* min lines for figures that other views show, too … */
+#define HEIGHT_ALL    24 /* … and for all figures */
+#define HEIGHT_ORDERS 30 /* min lines for the order of all options */
 
 /* ---- rock ---- */
 
@@ -61,7 +62,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_tests(page, &s, pane->height);
     if (!nothing && s.choice && ceduo_report_years_ahead(pane->report, pane->option) && pane->height >= HEIGHT_ALL)
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
-    ceduo_page_para_role(page, CEDUO_ROLE_DIM, pane->report->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
+    ceduo_page_para_role(page, CEDUO_ROLE_DIM, pane->report->busy ? _("%llu rocks so far") : _("finished, %llu rocks"),
                          (unsigned long long)ceduo_rocks_released(s.wooded ? s.wooded : s.bare));
     bool uncertainty =
         pane->height >= HEIGHT_ALL && !nothing && pane->report->uncertainty && pane->report->uncertainty->answer && !pane->year;
@@ -101,7 +102,8 @@ void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pa
         return;
     ceduo_uncertainty_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, ceduo_uncertainty_main(r, pane->option), 1);
     for (size_t i = 0; i < r->answer->orders_count; i++)
-        if (r->answer->orders[i].better == pane->option || r->answer->orders[i].than == pane->option)
+        if (pane->height >= HEIGHT_ORDERS || r->answer->orders[i].better == pane->option ||
+            r->answer->orders[i].than == pane->option)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
     for (size_t i = 0; i < 3 && !r->rotation_mean; i++)
         ceduo_uncertainty_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
@@ -129,8 +131,6 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
             ceduo_uncertainty_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->report->uncertainty, i);
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);
-        if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
-            ceduo_page_note(page, _("The years ahead are being computed."));
         if (!has_rotation(pane)) /* otherwise the energy law is one of the uncertain inputs */
             ceduo_words_rank_reversals(r, v, ceduo_page_note, page);
     }
@@ -140,8 +140,6 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_note(page, _(ceduo_words_unjudged));
     if (!r->wooded)
         ceduo_page_note(page, _(ceduo_words_by_index));
-    if (pane->report->busy)
-        ceduo_page_note(page, _("Refining \xe2\x80\xa6"));
     if (v->n > 1 && r->wooded && v->accepted && r->scene->blocks_count == 0)
         ceduo_page_para(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 rocks exceed the limit."),
                         CEDUO_EXCEED_MAX * 1000);

@@ -34,11 +34,13 @@ struct ceduo_picture {
     const struct ceduo_verdict *verdict; /* verdict on all options; NULL: not computed */
     struct ceduo_span *span; /* columns of the slope: set by profile and rotation, used by strips; NULL: from the area */
     const struct ceduo_uncertainty_report *uncertainty; /* NULL: not computed */
+    bool no_legend;                                     /* the options' names and numbers stand elsewhere */
+    bool bands;                                         /* strips shade what the forest lets through: mean to p95, p50 to p95 */
     bool no_x_axis;                                     /* another picture of the slope is below */
     bool trajectories;                                  /* the strip of heights shows each trajectory, too */
     bool paper; /* for a printed page: as wide as the area, with the angles of the control and the limit, in plain words */
     const size_t *compared;                      /* option whose values set the scales, too; NULL: none */
-    struct ceduo_years *const *years_of_options; /* one per option; NULL: not computed */
+    struct ceduo_years *const *years_of_options; /* one per option; NULL, or an element NULL: not computed */
 };
 
 /* The pictures: name, word, flags, title (%s: the control or the belt).
@@ -60,6 +62,7 @@ struct ceduo_picture {
     X(YEARS, years, CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_YEARS_RUN, N_("Over the years, up to %s"))                       \
     X(STAND, stand, 0, N_("%s, from above"))                                                                                   \
     X(COMPARE, compare, CEDUO_PICTURE_ALL_OPTIONS_RUN | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))              \
+    X(AHEAD, ahead, CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_YEARS_RUN, N_("Options over the years ahead, up to %s"))         \
     X(TRADEOFF, tradeoff, CEDUO_PICTURE_ALL_OPTIONS | CEDUO_PICTURE_YEARS_RUN,                                                 \
       N_("Protection and yield of the options, up to %s"))                                                                     \
     X(UNCERTAINTY, uncertainty, CEDUO_PICTURE_PAGE, N_("how sure it is at %s"))                                                \

@@ -58,12 +58,18 @@ static enum ceduo_role get_role(size_t item)
     return item == 0 ? CEDUO_ROLE_BARE : CEDUO_ROLE_FOREST;
 }
 
+/* Role of the sign and the name of an item: the option under the cursor is marked. */
+static enum ceduo_role get_sign_role(const struct ceduo_drawing *d, size_t item)
+{
+    return item == d->picture->option + 1 ? CEDUO_ROLE_CURSOR : get_role(item);
+}
+
 /* Name an item in the legend. */
 static void draw_name(const struct ceduo_drawing *d, size_t item)
 {
     if ((int)item < d->legend.height)
-        ceduo_plot_print(d->canvas, d->legend.left, d->legend.top + (int)item, d->legend.width, get_role(item), "%zu %s", item,
-                         item == 0 ? _("without forest") : d->scene->options[item - 1].name);
+        ceduo_plot_print(d->canvas, d->legend.left, d->legend.top + (int)item, d->legend.width, get_sign_role(d, item),
+                         "%zu %s", item, item == 0 ? _("without forest") : d->scene->options[item - 1].name);
 }
 
 /* ---- frequency ---- */
@@ -173,8 +179,8 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
         while (h && point > 0 && (point >= h->curve->count || logarithm(h->curve->points[point].rate.mean) < RATE_MIN))
             point--;
         if (h)
-            draw_sign(d, log_kJ(&h->curve->points[point]), logarithm(h->curve->points[point].rate.mean), false, get_role(i),
-                      sign);
+            draw_sign(d, log_kJ(&h->curve->points[point]), logarithm(h->curve->points[point].rate.mean), false,
+                      get_sign_role(d, i), sign);
         draw_name(d, i);
     }
     return NULL;
@@ -217,7 +223,7 @@ const char *ceduo_plot_fence(struct ceduo_drawing *d)
         char sign[24];
         snprintf(sign, sizeof sign, "%zu", i);
         if (f)
-            draw_sign(d, 0, 1000 * f->by_class[0], true, get_role(i), sign);
+            draw_sign(d, 0, 1000 * f->by_class[0], true, get_sign_role(d, i), sign);
         draw_name(d, i);
     }
     return NULL;
@@ -273,7 +279,7 @@ const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
         if (i == v->n) {
             ceduo_plot_print(d->canvas, d->legend.left, row, width, CEDUO_ROLE_AXIS, _("( ) another is better in both"));
         } else if (is_known(c)) {
-            enum ceduo_role role = c->beaten ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD;
+            enum ceduo_role role = i == d->picture->option ? CEDUO_ROLE_CURSOR : c->beaten ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD;
             snprintf(sign, sizeof sign, c->beaten ? "(%zu)" : "%zu", i + 1);
             draw_sign(d, c->yield.cut_per_year, 1000 * c->mean.mean, true, role, sign);
             ceduo_plot_print(d->canvas, d->legend.left, row, width, role, "%s %s", sign, d->scene->options[i].name);

@@ -96,6 +96,9 @@ const char *ceduo_plot_rotation(struct ceduo_drawing *d)
         *d->picture->span = (struct ceduo_span){d->frame.left, d->frame.width, d->frame.x0, d->frame.x1};
     draw_year_strips(d, a->height - 3 - lights, x, y);
     ceduo_canvas_axis_bottom(d->canvas, &d->frame, _("years"));
+    if (d->picture->year < years->count)
+        ceduo_canvas_label(d->canvas, find_column(d, x[d->picture->year]), d->frame.top + d->frame.height, CEDUO_ROLE_CURSOR,
+                           "\xe2\x96\xb2");
     for (int k = 0; k < lights; k++) { /* one mark per year; years in one column show the worst */
         int row = a->top + a->height - lights + k;
         ceduo_canvas_label(d->canvas, a->left, row, CEDUO_ROLE_AXIS, ceduo_translate_in(names[k]));

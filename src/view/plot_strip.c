@@ -34,7 +34,8 @@ struct strip {
     const double *x; /* … and their positions, m */
     int count;
     const struct curve *curves[CURVES_MAX];
-    double *y[CURVES_MAX]; /* per curve, m or kJ; NaN: no rock passes */
+    double *y[CURVES_MAX + 2]; /* per curve, then the ends of the band, m or kJ; NaN: no rock passes */
+    bool has_band;
     double peak, peak_x;   /* largest value, its position … */
     const char *peak_name; /* … and its curve */
 };
@@ -65,6 +66,10 @@ static const struct content contents[4] = {
      {{{N_("without"), N_("without")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OFFSETS(height.p95, mean_energy)}},
       {{N_("forest"), N_("forest")}, CEDUO_ROLE_FOREST, CEDUO_STROKE_PLAIN, false, {OFFSETS(height.p95, mean_energy)}}}}};
 
+/* Lower and upper end of the band with forest. */
+static const struct curve band[2] = {{{"", ""}, CEDUO_ROLE_DIM, CEDUO_STROKE_RULE, false, {OFFSETS(height.p50, mean_energy)}},
+                                     {{"", ""}, CEDUO_ROLE_DIM, CEDUO_STROKE_RULE, false, {OFFSETS(height.p95, energy.p95)}}};
+
 /* Return the columns for names of curves, with a blank on either side. */
 static int name_columns(const struct ceduo_canvas *canvas, const struct content *content, bool energy)
 {
@@ -84,11 +89,11 @@ static bool is_in_part(const struct strip *s, size_t cell)
     return s->x[cell] >= s->from && s->x[cell] <= s->to;
 }
 
-/* Read a curve; return the 85th percentile of its cells, NaN if no rock passes. */
-static double read_curve(struct strip *s, const struct curve *curve)
+/* Read a curve to s->y[to]; return the 85th percentile of its cells, NaN if no rock passes. */
+static double read_curve(struct strip *s, const struct curve *curve, int to)
 {
     const struct ceduo_envelope *cells = (curve->bare ? s->d->bare : s->d->run)->envelopes;
-    double *y = s->y[s->count] = ceduo_check_memory(malloc((s->n + 1) * sizeof *y)), usual = NAN;
+    double *y = s->y[to] = ceduo_check_memory(malloc((s->n + 1) * sizeof *y)), usual = NAN;
     double *values = ceduo_check_memory(malloc((s->n + 1) * sizeof *values));
     size_t n = 0;
     for (size_t i = 0; i < s->n; i++) {
@@ -96,7 +101,7 @@ static double read_curve(struct strip *s, const struct curve *curve)
         y[i] = cells[i].passed > 0 ? value * (s->energy ? J_TO_KJ : 1) : NAN;
         if (isnan(y[i]) || !is_in_part(s, i))
             continue;
-        if (y[i] > s->peak) {
+        if (y[i] > s->peak && to < CURVES_MAX) {
             s->peak = y[i];
             s->peak_x = s->x[i];
             s->peak_name = curve->names[s->energy];
@@ -106,7 +111,6 @@ static double read_curve(struct strip *s, const struct curve *curve)
     if (n > 0)
         usual = gsl_stats_select(values, 1, n, (n - 1) * 85 / 100);
     free(values);
-    s->curves[s->count++] = curve;
     return usual;
 }
 
@@ -115,14 +119,19 @@ static double read_curves(struct strip *s, const struct content *content)
 {
     double usual = NAN;
     for (int i = 0; i < CURVES_MAX; i++)
-        if (content->curves[i].names[s->energy])
-            usual = fmax(usual, read_curve(s, &content->curves[i]));
+        if (content->curves[i].names[s->energy]) {
+            s->curves[s->count] = &content->curves[i];
+            usual = fmax(usual, read_curve(s, &content->curves[i], s->count));
+            s->count++;
+        }
+    for (int end = 0; s->has_band && end < 2; end++)
+        usual = fmax(usual, read_curve(s, &band[end], CURVES_MAX + end));
     return usual;
 }
 
 static void free_curves(struct strip *s)
 {
-    for (int i = 0; i < s->count; i++)
+    for (int i = 0; i < CURVES_MAX + 2; i++)
         free(s->y[i]);
 }
 
@@ -148,7 +157,7 @@ static bool set_strip_scale(struct strip *s, const struct content *content)
     usual = fmax(usual, read_curves(s, content));
     peak = fmax(peak, s->peak);
     bool cut = peak > 1.5 * 1.15 * usual && usual > 0;
-    double top = cut ? 1.15 * usual : 1.05 * peak;
+    double top = cut ? 1.15 * usual : 1.05 * (s->has_band ? fmax(peak, usual) : peak);
     double max_accepted = s->energy ? 2 * top : 0; /* include accepted energies up to twice the top */
     for (size_t c = 0; c < s->d->scene->controls_count; c++) {
         double accepted = s->d->scene->controls[c].accepted * J_TO_KJ;
@@ -171,6 +180,22 @@ static void draw_trajectories(const struct ceduo_drawing *d)
         free(heights);
     }
     ceduo_canvas_cloud_show(d->canvas, 0);
+}
+
+/* Shade the band with a dotted line in each column. */
+static void draw_band(const struct strip *s)
+{
+    const double *lo = s->y[CURVES_MAX], *hi = s->y[CURVES_MAX + 1];
+    int last = -1, column, row;
+    for (size_t i = 0; i < s->n; i++) {
+        const double x[2] = {s->x[i], s->x[i]}, y[2] = {lo[i], fmin(hi[i], s->d->frame.y1)};
+        if (!is_in_part(s, i) || isnan(lo[i]) ||
+            !ceduo_frame_cell(&s->d->frame, s->d->canvas, x[0], s->d->frame.y0, &column, &row))
+            continue;
+        if (column != last)
+            ceduo_canvas_polyline(s->d->canvas, &s->d->frame, CEDUO_ROLE_DIM, CEDUO_STROKE_RULE, 2, x, y);
+        last = column;
+    }
 }
 
 /* Return the last value of a curve, clipped at the top; NaN if no rock passes or it is below the frame. */
@@ -240,6 +265,11 @@ static void draw_caption(const struct strip *s, const struct content *content)
         column += ceduo_canvas_draw_text(canvas, column, row, end - column, parts[i].role, "  ");
         column += ceduo_canvas_draw_text(canvas, column, row, end - column, parts[i].role, _(parts[i].text));
     }
+    if (s->d->picture->bands && !s->d->wooded && column < end)
+        column += ceduo_plot_print(canvas, column, row, end - column, CEDUO_ROLE_BARE, "  %s", _("without forest"));
+    if (s->has_band && column < end)
+        column += ceduo_canvas_draw_text(canvas, column, row, end - column, CEDUO_ROLE_DIM,
+                                         s->energy ? _("  \xe2\x96\x92 mean to p95") : _("  \xe2\x96\x92 p50 to p95"));
     if (!(s->peak > s->d->frame.y1) || column >= end)
         return;
     LOCAL_TEXT(words);
@@ -265,6 +295,7 @@ static const char *draw_strip(struct ceduo_drawing *d, bool energy)
     const char *reason = NULL;
     if (!d->run || !d->bare)
         return _("not computed yet");
+    s.has_band = d->picture->bands && d->wooded;
     s.n = snapshot->cells;
     s.x = snapshot->cell_x;
     if (!set_strip_scale(&s, content))
@@ -276,6 +307,8 @@ static const char *draw_strip(struct ceduo_drawing *d, bool energy)
         draw_caption(&s, content);
         if (d->picture->trajectories && !energy)
             draw_trajectories(d);
+        if (s.has_band)
+            draw_band(&s);
         for (int i = 0; i < s.count; i++)
             ceduo_canvas_polyline(d->canvas, &d->frame, s.curves[i]->role, s.curves[i]->stroke, s.n, s.x, s.y[i]);
         for (size_t c = 0; c < d->scene->controls_count; c++) { /* rule with a mark at the accepted energy */

@@ -23,6 +23,7 @@
 #define MISSED    1.0 /* m */
 
 struct launch {
+    struct contact contact;
     struct flight from;
     double x; /* exact contact */
 };
@@ -36,13 +37,13 @@ static double height(const struct ground *g, double x, double z, size_t *segment
     while (j > 0 && x < g->vertices[j].x)
         j--;
     *segment = j;
-    return z - (g->vertices[j].z + g->segments[j].m * (x - g->vertices[j].x));
+    return z - (g->vertices[j].z + ground_slope(g, j) * (x - g->vertices[j].x));
 }
 
 static double solve_quadratic(const struct ground *g, const struct launch *l, double step)
 {
     (void)step;
-    return next_landing(g, &l->from).x;
+    return next_contact(g, &l->contact, &l->from, false).x;
 }
 
 /* Return x of the intersection of the line from (x0, h0 >= 0) to (x1, h1 < 0) with the ground. */
@@ -161,16 +162,11 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < n;) {
         double x = line_uniform(&random, 0, 150), along = line_uniform(&random, 0, 20), off = line_uniform(&random, 0.2, 6.2);
         size_t j = ceduo_slope_segment(&site.scene.slope, x);
-        const struct ground_segment *s = &g.segments[j];
-        struct flight f = {.x = x,
-                           .z = ground_height(&g, j, x),
-                           .vx = along * s->c - off * s->s,
-                           .vz = along * s->s + off * s->c,
-                           .segment = j,
-                           .on_ground = true};
-        struct landing l = next_landing(&g, &f);
+        struct contact contact = {j, ground_along(&g, j, x), along, off};
+        struct flight f = begin_flight(&g, &contact);
+        struct landing l = next_contact(&g, &contact, &f, false);
         if (!l.off_slope)
-            launches[i++] = (struct launch){f, l.x};
+            launches[i++] = (struct launch){contact, f, l.x};
     }
     puts("what,step_s_or_tolerance,flights,ns_per_flight,rms_error_m,largest_error_m,beyond_1_m");
     for (int repeat = 0; repeat < 200; repeat++) /* warm, and long enough to time */

@@ -101,8 +101,8 @@ static double time_core(const struct site *site, struct measure *m)
 
 static void print_line(const struct site *site, const char *label, uint64_t rocks, double seconds, double rate)
 {
-    printf("%s,%s,against,%s,%" PRIu64 ",%.4f,%.0f,%.3f\n", label, site->law, site->roughness, rocks, seconds, rate,
-           rate / site->plain_rate);
+    printf("%s,%s,against,%s,%" PRIu64 ",%.4f,%.0f,%.1f,%.3f\n", label, site->law, site->roughness, rocks, seconds, rate,
+           1e9 / rate, rate / site->plain_rate);
     fflush(stdout);
 }
 
@@ -193,7 +193,7 @@ int main(int argc, char **argv)
     static struct site lumped, crsp;
     init_site(&lumped, CEDUO_LAW_LUMPED, false);
     init_site(&crsp, CEDUO_LAW_CRSP, true);
-    puts("what,law,facets,roughness,rocks,seconds_median,contacts_per_s,ratio_to_plain");
+    puts("what,law,facets,roughness,rocks,seconds_median,contacts_per_s,ns_per_contact,ratio_to_plain");
     bool good = measure_site(&lumped, repeats, rocks);
     good &= measure_site(&crsp, repeats, rocks);
     measure_many(&lumped, repeats);

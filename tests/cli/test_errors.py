@@ -530,7 +530,7 @@ CASES = {
         Words("--batch", "--rows", "stands", *words, "@")(row) for words in ((), ("-f", "json"))],
     "--charset requires --plot": Words("--batch", "--charset", "ascii", "@"),
     "--batch cannot be used with --script": Words("--batch", "--script", "x", "@"),
-    "--years requires --plot rotation|years|tradeoff": Words("--years", "0:5", "--plot", "profile", "@"),
+    "--years requires --plot rotation|years|ahead|tradeoff": Words("--years", "0:5", "--plot", "profile", "@"),
 }
 
 

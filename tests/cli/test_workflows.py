@@ -115,7 +115,7 @@ def names_columns(err):
 def option_shown(start, screen):
     """Return view 5's text for an option: in its own line, or in the next if its name fills that."""
     lines = [line.split("│")[0].rstrip() for line in screen.splitlines()]
-    at = [i for i, line in enumerate(lines) if line.startswith(start)]
+    at = [i for i, line in enumerate(lines) if line.startswith(start) or re.match(r"\d+ " + re.escape(start), line)]
     expect(at, f"no line begins with {start!r} in:", screen)
     row = lines[at[0]]
     return row if re.search(r"\d/\d", row) else row + " " + lines[at[0] + 1].strip()

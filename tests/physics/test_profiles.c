@@ -183,18 +183,23 @@ TEST(flights_land_as_without_blocks)
             double speed = sqrt(CEDUO_GRAVITY * end * line_log_uniform(&r, 1e-7, 1)), angle = line_uniform(&r, 0, 6.3);
             double x = line_chance(&r, .2) ? g.x[(size_t)line_uniform(&r, 0, (double)g.n)] : line_uniform(&r, 0, end);
             size_t j = ceduo_ground_segment(&g, x);
-            bool above = line_chance(&r, .5);
-            struct flight f = {.x = x,
-                               .z = ground_height(&g, j, x) + (above ? line_log_uniform(&r, 1e-6, 1) * end : 0),
-                               .vx = speed * cos(angle),
-                               .vz = speed * sin(angle),
-                               .segment = j,
-                               .on_ground = !above};
-            if (!above && f.vz * g.segments[j].c - f.vx * g.segments[j].s <= 0) /* into the ground */
-                f.vz = f.vx * g.segments[j].m + 1e-3 * speed;
-            struct landing a = next_landing(&g, &f), b = next_landing(&plain, &f);
-            EXPECT_SAME(a, b, t, x, z, segment, off_slope);
-            far += a.segment > j + 100 || a.segment + 100 < j;
+            struct landing a, b;
+            if (line_chance(&r, .5)) {
+                struct flight f = {.x = x,
+                                   .z = ground_height(&g, j, x) + line_log_uniform(&r, 1e-6, 1) * end,
+                                   .vx = speed * cos(angle),
+                                   .vz = speed * sin(angle),
+                                   .segment = j};
+                a = next_landing(&g, &f);
+                b = next_landing(&plain, &f);
+            } else {
+                struct contact contact = {j, ground_along(&g, j, x), speed * cos(angle), fabs(speed * sin(angle))};
+                struct flight f = begin_flight(&g, &contact);
+                a = next_contact(&g, &contact, &f, true);
+                b = next_contact(&g, &contact, &f, false);
+            }
+            EXPECT_SAME(a, b, t, x, z, contact.segment, contact.q, contact.along, contact.off, off_slope);
+            far += a.contact.segment > j + 100 || a.contact.segment + 100 < j;
         }
     }
     print_message("%ju flights of more than 100 segments\n", (uintmax_t)far);
@@ -239,14 +244,10 @@ TEST(flights_along_teeth_touch_the_same_with_blocks)
         plain.top = 0;
         for (int dir = -1; dir <= 1; dir += 2) {
             double x = dir > 0 ? 0 : g.x[g.n];
-            struct flight f = {.x = x,
-                               .z = top - fall * x,
-                               .vx = dir * speed,
-                               .vz = -fall * (dir * speed),
-                               .segment = dir > 0 ? 0 : g.n - 1,
-                               .on_ground = false};
+            struct flight f = {
+                .x = x, .z = top - fall * x, .vx = dir * speed, .vz = -fall * (dir * speed), .segment = dir > 0 ? 0 : g.n - 1};
             struct landing a = next_landing(&g, &f), b = next_landing(&plain, &f);
-            EXPECT_SAME(a, b, t, x, z, segment, off_slope);
+            EXPECT_SAME(a, b, t, x, z, contact.segment, contact.q, contact.along, contact.off, off_slope);
             touched += !b.off_slope;
         }
     }

@@ -83,8 +83,8 @@ def test_wood_felled():
     """On 80 columns the worst year and the felled volume stay next to the mean over the years and its range"""
     with Place() as place:
         screen = place.play("key 7\nwait idle\nkey 5\nwait idle\ndump", "road-below")[0].whole()
-    expect(re.search(r"^option +today +mean +range +worst +fail m³/y$", screen.body, re.M), screen)
-    expect_equal(len(re.findall(r"^\w.* \d+±\d+ +\d+±\d+ +\d+–\d+ +\d+ \(\d+\) +\d+/\d+ +[\d.-]+$", screen.body, re.M)), 3, screen)
+    expect(re.search(r"^  option +today +mean +range +worst +fail m³/y$", screen.body, re.M), screen)
+    expect_equal(len(re.findall(r"^\d \w.* \d+±\d+ +\d+±\d+ +\d+–\d+ +\d+ \(\d+\) +\d+/\d+ +[\d.-]+$", screen.body, re.M)), 3, screen)
 
 
 def test_copies():

@@ -40,7 +40,7 @@ def land(script, text=LAND):
 
 
 def points(screen):
-    return re.findall(r"^\d +(\S+) (\S+)$", screen.body.split("Profile: points")[1], re.M)
+    return re.findall(r"(?:^| )\d +(\S+) (\S+)$", screen.body.split("Profile: points")[1], re.M)
 
 
 def stretches(screen, head):
@@ -215,7 +215,7 @@ def test_from_the_end():
     expect_equal([[x.rstrip("*") for x in r[1:3]] for r in table(ground, GROUNDS)], [["0", "50"], ["50", "end"]], "the ground's halves")
     expect_in("write end, or end-10 for 10 m before the end", refused.note, "refused")
     controls.has("85 end-8.5")
-    expect_equal(rock.row("^x, m")[-1], "end-98", "the release")
+    expect_equal(rock.row("^x, m")[2], "end-98", "the release")
     for line in ("to_m: end-49.5", "controls_m: [85, end-8.5]", "x_m: end-98"):
         expect_in(line, text, "the file")
 

@@ -178,7 +178,7 @@ def test_paste_field():
         paste(t, " x" * 600)
         t.sees("too long for this line", "Esc cancel")
         t.keys("Enter")
-        t.sees("* fast", "Über dem  Weg", lacks=("Esc cancel",))
+        t.sees("*   Über dem", "Über dem  Weg", lacks=("Esc cancel",))
 
 
 def test_paste_in_pieces():

@@ -133,7 +133,7 @@ def test_at_once():
         for _ in range(3):
             t.sees("Controls", "? help", lacks=("type to search",))
             for _ in range(3):  # the picture gets the cursor, grows, and lists what is there
-                t.press(30, 5)
+                t.press(20, 5)
             t.sees("type to search", "new control here")
             t.click("Esc cancel")
             t.sees("? help", lacks=("type to search",))
@@ -191,7 +191,7 @@ def test_slope():
     with Place() as place, Mouse(place) as t:
         t.start("fast.yaml")
         t.sees("finished")
-        x, y = t.find("upper", row=9)  # its name is in the middle of 5 to 45 m
+        x, y = t.find("upper", row=8)  # its name is in the middle of 5 to 45 m
         t.press(x + 2, y)
         shown = t.sees("° steep, upper")
         metres = float(re.search(r"^([\d.]+) m: ", shown, re.M)[1])

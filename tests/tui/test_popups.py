@@ -186,7 +186,7 @@ def test_open():
     screens[0].has("fast.yaml", "yours", "(now)", "four-systems", "paper-site")
     own, shipped = (screens[0].popup.find(name) for name in ("options.yaml", "four-systems"))
     expect(0 <= own < shipped, "the user's own come first", screens[0])
-    screens[1].has("four-systems", "Rock 0.68 m, 512.3 kg")
+    screens[1].has("Four systems", "Rock 0.68 m, 512.3 kg")
     screens[2].has("thick")
     screens[3].has("there is no file 'missing.yaml'")
     screens[4].has("thick")
@@ -533,7 +533,7 @@ def test_counts():
             before, form, screen, _ = place.play(counts_script(COUNTED[0], how, *COUNTED[2:]) + "\nkey s", "fast.yaml")
             lower = place.text("fast.yaml").split("to_m: 80")[1]
         form.has("Stand from a sample plot", "size of the plot, m²", "angle", "their mean diameter, cm")
-        rows = [re.findall(r"^\d +(\S+) +(\S+) +(\S+)", part, re.M) for part in screen.body.split("\n    per ha")[1:]]
+        rows = [re.findall(r"^\d +(\S+) +(\S+) +(\S+)", part, re.M) for part in re.split(r"\n    per h(?:a|ectare)\b", screen.body)[1:]]
         found = [float(screen.row("^stools per ha")[-1]), float(rows[0][0][0]), float(rows[1][0][0])]
         for value, count in zip(found, (100, 250, 20)):
             expect_equal(f"{value:.4g}", f"{count * per:.4g}", f"{how}: {count} in the plot, per ha, to the digits of a form")
@@ -551,9 +551,9 @@ def test_counts_of_nothing():
     """c: uncounted stems are missing: a plot without stools, one without trees, an empty one."""
     no_stools = fast(counts_script(*COUNTED[:2], "", "", "", "", "20", "22", "13"))[2]
     expect_equal(no_stools.row("^stools per ha")[-1], "-", "stools")
-    expect_in("Shoots on the stools none; a adds one", re.sub(r"\s+", " ", re.sub(r"\n +per ha[^\n]*", "", no_stools.body)))
+    expect_in("Shoots on the stools none; a adds one", re.sub(r"\s+", " ", re.sub(r"\n +per h[^\n]*", "", no_stools.body)))
     no_trees = fast(counts_script(*COUNTED[:6], "0", "", ""))[2]
-    expect_in("reserves none; a adds one", re.sub(r"\s+", " ", re.sub(r"\n +per ha[^\n]*", "", no_trees.body)))
+    expect_in("reserves none; a adds one", re.sub(r"\s+", " ", re.sub(r"\n +per h[^\n]*", "", no_trees.body)))
     empty = fast(counts_script(*COUNTED[:2], "", "", "", "", "", "", ""))[2]
     expect_in("FAILS", empty.lights().values())
 

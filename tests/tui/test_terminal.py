@@ -778,6 +778,17 @@ def test_themes():
         expect(read_colours(first) and second, first)
 
 
+def test_sixteen_colours():
+    """Colours are among the terminal's 16; a terminal of eight shows bright ones as bold."""
+    for name, bright in (("tmux-256color", True), ("screen", False)):
+        with Place() as place, Tmux(place, TERM=name) as t:
+            t.start("wood.yaml")
+            t.sees("finished, ")
+            found = read_colours(t.screen("-e"))
+            expect(found and not found & {"38", "48"}, f"{name}: colours {found}")
+            expect_equal(any(len(code) > 1 and code[0] in "91" for code in found), bright, f"{name}: bright among {found}")
+
+
 def press_mouse(t, button, x, y):
     """Press a button at a cell, counted from 1, and release it; 64 and 65 are the wheel, up and down."""
     if t.tmux("display-message", "-p", "#{mouse_sgr_flag}").strip() == "1":

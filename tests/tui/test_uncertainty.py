@@ -117,8 +117,8 @@ def test_options():
     thin.has("'thick' beats 'thin' in", "depends on") # the worse of a pair, too
     for name in ("thick", "thin"):  # beside today's figure, of which it is
         band = re.search(rf"^{name} .* (\d+–\d+)$", thin.body, re.M).group(1)
-        expect(re.search(rf"^{name} +\d+±\d+ +{band} +\d+±\d+ ", compared.body, re.M), compared)
-    expect(re.search("^option +today +range +mean ", compared.body, re.M), compared)
+        expect(re.search(rf"^\d {name} +\d+±\d+ +{band} +\d+±\d+ ", compared.body, re.M), compared)
+    expect(re.search("^  option +today +range +mean ", compared.body, re.M), compared)
     further.has("'thin' beats 'none left' in")
 
 
@@ -146,13 +146,13 @@ def test_over_the_rotation():
     expect_equal(sorted(bands), ["cut", "kept"])
     for name, band in bands.items():
         expect(re.search(rf"^{name} .* {band}( |$)", over.body, re.M), name, band, over)
-        expect(re.search(rf"^{name} .* \d+±\d+ +\d+±\d+ +{band} ", compared.body, re.M), name, band, compared)
-        expect(re.search(rf"^{name} .* {band} ", small.body, re.M), name, band, small)
+        expect(re.search(rf"^\d {name} .* \d+±\d+ +\d+±\d+ +{band} ", compared.body, re.M), name, band, compared)
+        expect(re.search(rf"^\d {name} .* {band} ", small.body, re.M), name, band, small)
         expect(re.search(rf"{name} \d+ \d+–\d+ {band} ", written), name, band, written)
     expect(re.search(order, written), order, written)
     for screen in (over, other, compared, small):
         expect(re.search(order, " ".join(screen.body.split())), order, screen)
-    expect(re.search("^option +today +mean +range ", compared.body, re.M), compared)
+    expect(re.search("^  option +today +mean +range ", compared.body, re.M), compared)
     for screen in (today, back):
         expect(re.search("[0-9] +today +", screen.body), screen)
 

@@ -168,11 +168,11 @@ TEST(columns_find_their_widths)
                  "coppice, just cut 7.000 ########|##  +-1\n"
                  "coppice, 25 years 123.4   ####  |    +-1\n\n");
     expect_drawn(&narrow, (struct ceduo_area){3, 1, 24, 3}, CEDUO_CHARSET_BRAILLE, 0, 3,
-                 "\n                   kJ\n   coppic\xe2\x80\xa6"
-                 "t cut 7.000 \xe2\x96\x88\xe2\x96\x88\xe2\x96\x88\xe2\x96\x88\xe2\x94\x82\n   coppic\xe2\x80\xa6"
-                 "years 123.4  \xe2\x96\x88\xe2\x96\x88 \xe2\x94\x82\n\n");
+                 "\n                   kJ\n   \xe2\x80\xa6"
+                 "e, just cut 7.000 \xe2\x96\x88\xe2\x96\x88\xe2\x96\x88\xe2\x96\x88\xe2\x94\x82\n   \xe2\x80\xa6"
+                 "e, 25 years 123.4  \xe2\x96\x88\xe2\x96\x88 \xe2\x94\x82\n\n");
     expect_drawn(&least, (struct ceduo_area){0, 0, 14, 3}, CEDUO_CHARSET_ASCII, 0, 3,
-                 "            kJ\ncopp~cut 7.000\ncopp~ars 123.4\n\n");
+                 "            kJ\n~just c~ 7.000\n~25 yea~ 123.4\n\n");
 }
 
 /* Text that does not fit is cut with a mark, and nothing is drawn outside the area. */

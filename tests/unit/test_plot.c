@@ -540,6 +540,7 @@ TEST_BARE(titles_describe_the_picture)
         {"Over the years, up to path (40 m)", ""},
         {"kept: coppice, from above", ""},
         {"Options side by side, up to path (40 m)", ""},
+        {"Options over the years ahead, up to path (40 m)", ""},
         {"Protection and yield of the options, up to path (40 m)", ""},
         {"kept: how sure it is at path (40 m)", ""},
         {"How often, and with how much, at path (40 m)", ""},

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Landing of a flight on a segment, and end of a roll on it. The code serves both the scalar walk and the lanes. */
+/* Flights from and to the line of a segment. The code serves both the scalar walk and the lanes. */
 #ifndef CEDUO_FLIGHT_H
 #define CEDUO_FLIGHT_H
 
@@ -7,25 +7,46 @@
 
 #include "base/real.h"
 
-/* A flight in the vertical plane. If on_ground, it starts on the ground of `segment`. */
+/* A flight in the vertical plane, above `segment`. */
 struct flight {
     double x, z, vx, vz;
     size_t segment;
-    bool on_ground;
+};
+
+/* A rock on the ground: metres from the first vertex of its segment, exactly 0 or the length at a vertex; velocity along the
+ * segment and off it, m/s. */
+struct contact {
+    size_t segment;
+    double q, along, off;
 };
 
 /* End of a flight: on the ground, or beyond an end of the profile. */
 struct landing {
-    double t, x, z; /* s after the start; m, on the ground or above the profile's end */
-    size_t segment;
+    double t, x, z;         /* s after the start; m, on the ground or above the profile's end */
+    struct contact contact; /* on the profile */
     bool off_slope;
 };
 
 /* ---- for numbers and registers ---- */
 
-/* A segment of the ground. */
-struct chord {
-    real x0, z0, x1, z1, m;
+/* Velocity in the axes of a segment, of unit tangent (c, s). */
+struct velocity {
+    real along, off;
+};
+
+FORCE_INLINE struct velocity velocity_on(real c, real s, real vx, real vz)
+{
+    return (struct velocity){.along = vx * c + vz * s, .off = vz * c - vx * s};
+}
+
+/* A segment's unit tangent along +x, and its length. */
+struct axes {
+    real c, s, length;
+};
+
+/* Motion of a rock on the line of a segment, as in struct contact. */
+struct motion {
+    real q, along, off;
 };
 
 FORCE_INLINE real height_at_time(real z, real vz, double half_g, real t)
@@ -34,40 +55,35 @@ FORCE_INLINE real height_at_time(real z, real vz, double half_g, real t)
 }
 
 /* Return the later root of c + b t - g/2 t2, without cancellation. Requires c >= 0 apart from rounding. */
-FORCE_INLINE real later_root(real c, real b, double g)
+FORCE_INLINE real later_root(real c, real b, real g)
 {
-    real zero = splat(0), d = b * b + 2 * g * c, root = blend(less(zero, d), vsqrt(d), zero);
+    real zero = splat(0), d = b * b + 2 * g * c, root = vsqrt(max(d, zero));
     mask up = greater_equal(b, zero);
-    real t = blend(up, b + root, 2 * c) / blend(up, splat(g), root - b);
-    return blend(up | less(zero, c), t, zero);
+    real t = blend(up, b + root, 2 * c) / blend(up, g, root - b);
+    return zero_if(and_not(less(b, zero), less(zero, c)), t);
 }
 
-/* Return the height of a chord at x. Requires x on the chord. */
-FORCE_INLINE real chord_height(const struct chord *s, real x)
+/* Return the motion of a flight from a segment when it comes down on the line of this segment, after *t. *leaves: it flies
+ * beyond an end of the segment, or through it. */
+FORCE_INLINE struct motion hop(const struct axes *a, double g, struct motion m, real *t, mask *leaves)
 {
-    return blend(greater_equal(x, s->x1), s->z1, s->z0 + s->m * (x - s->x0));
+    real zero = splat(0), gs = g * a->s, vx = m.along * a->c - m.off * a->s;
+    *t = 2 * m.off / (g * a->c);
+    real q = m.q + (m.along - 0.5 * gs * *t) * *t;
+    *leaves = (greater_equal(q, a->length) & less(zero, vx)) | (greater_equal(zero, q) & less(vx, zero));
+    return (struct motion){.q = clamp(q, zero, a->length), .along = m.along - gs * *t, .off = -m.off};
 }
 
-/* Move a nearby point onto the chord: keep x, or z if the chord is steeper than 45 degrees (`steep`), and compute the other
- * coordinate. `any_steep`: some lane is steep. `snap_upper`: a steep point at the height of vertex 1 becomes vertex 1. */
-FORCE_INLINE void snap_to_chord(const struct chord *s, mask steep, bool any_steep, bool snap_upper, real *x, real *z)
+/* Return the motion of a flight when it comes down on a segment, after *t, at the latest after `latest`. (dx, dz): from the
+ * first vertex to the start of the flight. */
+FORCE_INLINE struct motion come_down_on(const struct axes *a, double g, real dx, real dz, real vx, real vz, real latest,
+                                        real *t)
 {
-    real flat_x = clamp(*x, s->x0, s->x1), flat_z = chord_height(s, flat_x);
-    if (any_steep) {
-        real steep_z = clamp(*z, min(s->z0, s->z1), max(s->z1, s->z0));
-        real steep_x = clamp(s->x0 + (steep_z - s->z0) / s->m, s->x0, s->x1);
-        if (snap_upper)
-            steep_x = blend(equal(steep_z, s->z1), s->x1, steep_x);
-        flat_x = blend(steep, steep_x, flat_x);
-        flat_z = blend(steep, steep_z, flat_z);
-    }
-    *x = flat_x;
-    *z = flat_z;
-}
-
-FORCE_INLINE mask is_steep(real m)
-{
-    return less(splat(1), vabs(m));
+    real gc = g * a->c, gs = g * a->s;
+    struct velocity v = velocity_on(a->c, a->s, vx, vz);
+    *t = min(latest, later_root(dz * a->c - dx * a->s, v.off, gc)); /* NaN possible if vx is tiny */
+    real q = dx * a->c + dz * a->s + (v.along - 0.5 * gs * *t) * *t;
+    return (struct motion){.q = clamp(q, splat(0), a->length), .along = v.along - gs * *t, .off = v.off - gc * *t};
 }
 
 /* Return the speed along the ground when a rock of speed `along` begins to roll without slip. */

@@ -57,10 +57,10 @@ static inline struct flight flight_to(const struct walker *w, const struct fligh
         .vx = flight->vx, .vz = flight->vz - w->g->gravity * t, .z = height_at_time(flight->z, flight->vz, w->g->half_g, t)};
 }
 
-void ceduo_walk_pass_marks(struct walker *w, struct flight flight, double x, double t_end)
+void ceduo_walk_pass_marks(struct walker *w, const struct flight *flight, double x, double t_end)
 {
     for (; w->next_x <= x; set_next_x(w)) {
-        struct flight f = flight_to(w, &flight, w->next_x, t_end);
+        struct flight f = flight_to(w, flight, w->next_x, t_end);
         pass_mark(w, f.vx, f.vz, w->spin, f.z - w->marks->items[w->next_mark].z);
     }
 }
@@ -76,14 +76,13 @@ FORCE_INLINE void fly(struct walker *w, struct flight *flight, const struct land
 {
     double vz = flight->vz - w->g->gravity * l->t;
     if (w->next_x <= l->x && flight->vx > 0) /* untaken: rounding */
-        ceduo_walk_pass_marks(w, *flight, l->x, l->t);
+        ceduo_walk_pass_marks(w, flight, l->x, l->t);
     if (w->callbacks && w->callbacks->segment)
         report_flight(w, *flight, l->x, l->z, vz, l->t);
     flight->x = l->x;
     flight->z = l->z;
     flight->vz = vz;
-    flight->segment = l->segment;
-    flight->on_ground = true;
+    flight->segment = l->contact.segment;
 }
 
 /* ---- stems ---- */
@@ -158,10 +157,9 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
         double t = (x - flight->x) / flight->vx;
         t = t < 0 ? 0 : landing_known && t > l->t ? l->t : t;
         struct landing at_stem = {.t = t, .x = x, .z = height_at_time(flight->z, flight->vz, g->half_g, t)};
-        at_stem.segment =
-            same_segment ? j
-                         : gsl_interp_bsearch(g->x, x, j < l->segment ? j : l->segment, (j < l->segment ? l->segment : j) + 1);
-        double clearance = at_stem.z - ground_height(g, at_stem.segment, x);
+        size_t to = l->contact.segment;
+        at_stem.contact.segment = same_segment ? j : gsl_interp_bsearch(g->x, x, j < to ? j : to, (j < to ? to : j) + 1);
+        double clearance = at_stem.z - ground_height(g, at_stem.contact.segment, x);
         if (!landing_known && !(clearance >= 0)) {
             *l = next_landing(g, flight);
             landing_known = true;
@@ -182,7 +180,6 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
             continue;
         }
         fly(w, flight, &at_stem);
-        flight->on_ground = false;
         double energy = flying_energy(w->rock.mass, w->rock.moment, flight->vx, flight->vz, w->spin);
         double share = hit_stem(w, &stem, x, clearance, energy);
         flight->vx *= share;
@@ -255,12 +252,6 @@ FORCE_INLINE struct ground_point ground_point(const struct walker *w, size_t j)
     return p;
 }
 
-FORCE_INLINE struct velocity velocity_at(const struct walker *w, const struct flight *flight)
-{
-    const struct ground_segment *s = &w->g->segments[flight->segment];
-    return velocity_on(s->c, s->s, flight->vx, flight->vz);
-}
-
 /* A facet: its angle to the segment, against a rock that moves along +x, or upward with facets to both sides. */
 struct facet {
     double angle, sine, cosine;
@@ -279,19 +270,18 @@ FORCE_INLINE void turn_facet(struct walker *w, size_t j, struct facet *f)
     }
 }
 
-FORCE_INLINE void strike_ground(struct walker *w, struct flight *flight, struct velocity *v, struct facet *facet,
-                                const struct contact_law *law)
+FORCE_INLINE void strike_ground(struct walker *w, struct contact *contact, struct facet *facet, const struct contact_law *law)
 {
-    const struct ground_segment *s = &w->g->segments[flight->segment];
-    turn_facet(w, flight->segment, facet);
+    turn_facet(w, contact->segment, facet);
     double sine = facet->sine, cosine = facet->cosine;
-    facet_struck(w->g->facets == CEDUO_FACETS_AGAINST, *v, &sine, &cosine);
-    struct ground_point point = ground_point(w, flight->segment);
+    struct velocity v = {contact->along, contact->off};
+    facet_struck(w->g->facets == CEDUO_FACETS_AGAINST, v, &sine, &cosine);
+    struct ground_point point = ground_point(w, contact->segment);
     if (law->sections)
         turn_section(w, &point);
-    *v = strike(law, &point, sine, cosine, *v, &w->spin);
-    flight->vx = v->along * s->c - v->off * s->s;
-    flight->vz = v->along * s->s + v->off * s->c;
+    v = strike(law, &point, sine, cosine, v, &w->spin);
+    contact->along = v.along;
+    contact->off = v.off;
 }
 
 #endif

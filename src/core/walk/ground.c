@@ -86,7 +86,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     /* with a subnormal length c and s would not be a unit vector, and a contact would add energy */
     double shortest = DBL_MIN / DBL_EPSILON, scale = fabs(dx) < shortest && fabs(dz) < shortest ? 0x1p600 : 1;
     double length = ceduo_hypot(dx * scale, dz * scale);
-    to->m = dz / dx;
+    to->length = length / scale;
     to->c = dx * scale / length;
     to->s = dz * scale / length;
     to->friction = from->friction;
@@ -97,7 +97,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
         to->theta = g->segments[j - 1].theta;
     else
         to->theta = roughness_angle((struct ground_roughness){from->roughness_m, from->roughness_rad}, radius);
-    g->distance[j + 1] = g->distance[j] + length / scale;
+    g->distance[j + 1] = g->distance[j] + to->length;
     g->rn_varies |= from->rn.spread > 0;
     g->rt_varies |= from->rt.spread > 0;
 }
@@ -215,15 +215,4 @@ void ceduo_ground_release(struct ground *ground)
     for (int l = 0; l < GROUND_LEVELS; l++)
         free(ground->levels[l]);
     memset(ground, 0, sizeof *ground);
-}
-
-double ceduo_ground_between(const struct ground *g, size_t j, double x0, double z0, size_t k, double x1, double z1)
-{
-    if (j == k)
-        return ground_length(&g->segments[j], x0, z0, x1, z1);
-    if (j > k)
-        return ceduo_ground_between(g, k, x1, z1, j, x0, z0);
-    double before = ground_length(&g->segments[j], x0, z0, g->vertices[j + 1].x, g->vertices[j + 1].z);
-    double after = ground_length(&g->segments[k], g->vertices[k].x, g->vertices[k].z, x1, z1);
-    return before + (g->distance[k] - g->distance[j + 1]) + after;
 }

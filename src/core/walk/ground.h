@@ -15,7 +15,7 @@ struct ground_vertex {
 };
 
 struct ground_segment {
-    double m;            /* dz/dx */
+    double length;       /* m */
     double theta;        /* largest facet angle, for the radius of the mean rock */
     double c, s;         /* unit tangent along +x; the normal upward is (-s, c) */
     double rn, rt;       /* means */
@@ -74,10 +74,10 @@ void ceduo_ground_release(struct ground *ground);
 /* Return the segment that contains x, the right-hand one at a vertex. */
 size_t ceduo_ground_segment(const struct ground *ground, double x);
 
-/* True if z determines a point better than x. */
-FORCE_INLINE bool ground_is_steep(const struct ground_segment *s)
+/* Return the slope dz/dx of segment j. */
+FORCE_INLINE double ground_slope(const struct ground *g, size_t j)
 {
-    return s->m > 1 || s->m < -1;
+    return (g->vertices[j + 1].z - g->vertices[j].z) / (g->vertices[j + 1].x - g->vertices[j].x);
 }
 
 /* Return the height of the ground at x on segment j. */
@@ -85,17 +85,33 @@ FORCE_INLINE double ground_height(const struct ground *g, size_t j, double x)
 {
     if (x >= g->vertices[j + 1].x)
         return g->vertices[j + 1].z;
-    return g->vertices[j].z + g->segments[j].m * (x - g->vertices[j].x);
+    return g->vertices[j].z + ground_slope(g, j) * (x - g->vertices[j].x);
 }
 
-/* Return the metres along the ground between two points of one segment. */
-FORCE_INLINE double ground_length(const struct ground_segment *s, double x0, double z0, double x1, double z1)
+/* Return the metres along segment j to x, from its first vertex: exactly 0 or its length at a vertex. */
+FORCE_INLINE double ground_along(const struct ground *g, size_t j, double x)
 {
-    double d = ground_is_steep(s) ? (z1 - z0) / s->s : (x1 - x0) / s->c;
-    return d < 0 ? -d : d;
+    const struct ground_segment *s = &g->segments[j];
+    double q = (x - g->vertices[j].x) / s->c;
+    return x >= g->vertices[j + 1].x || q > s->length ? s->length : q;
 }
 
-/* Return the metres along the ground between a point on segment j and a point on segment k. */
-double ceduo_ground_between(const struct ground *g, size_t j, double x0, double z0, size_t k, double x1, double z1);
+/* Return the point of segment j at q metres along it. */
+FORCE_INLINE struct ground_vertex ground_place(const struct ground *g, size_t j, double q)
+{
+    const struct ground_segment *s = &g->segments[j];
+    if (q >= s->length)
+        return g->vertices[j + 1];
+    return (struct ground_vertex){g->vertices[j].x + s->c * q, g->vertices[j].z + s->s * q};
+}
+
+/* Return the metres along the ground between q on segment j and r on segment k. */
+FORCE_INLINE double ground_between(const struct ground *g, size_t j, double q, size_t k, double r)
+{
+    if (j == k)
+        return fabs(r - q);
+    double up_to_j = j < k ? g->segments[j].length - q : q, from_k = j < k ? r : g->segments[k].length - r;
+    return up_to_j + (j < k ? g->distance[k] - g->distance[j + 1] : g->distance[j] - g->distance[k + 1]) + from_k;
+}
 
 #endif

@@ -35,7 +35,7 @@ FORCE_INLINE void step_lanes(struct kernel_params params, struct lanes *k, bool 
         pass_marks_scalar(k, (size_t)__builtin_ctz(pass));
     for (; leave; leave &= leave - 1) {
         size_t i = (size_t)__builtin_ctz(leave);
-        end_lane(k, i, k->to_x[i], k->to_z[i], CEDUO_END_LEFT_SLOPE);
+        end_lane(k, i, k->to_x[i], k->t[i], CEDUO_END_LEFT_SLOPE);
     }
     for (; scalar; scalar &= scalar - 1)
         land_scalar(k, (size_t)__builtin_ctz(scalar));
@@ -57,30 +57,17 @@ FORCE_INLINE void step_lanes(struct kernel_params params, struct lanes *k, bool 
     k->rolled = k->friction_bound ? k->rolling : 0;
     EACH_REGISTER(i)
         strike_lanes(params, k, i);
-    unsigned unfound = k->has_chunks ? find_segments_far(params, k) : find_segments(params, k);
-    unsigned waiting = params.stems ? k->waiting : 0, off_slope = 0, may_roll = 0;
+    unsigned listed = 0;
+    scalar = k->rolling = k->leaving.n = 0;
+    k->off_slope &= in_the_air(params, k);
     EACH_REGISTER(i)
-        off_slope |= land_lanes(params, k, i, &may_roll);
-    k->off_slope = (off_slope & k->live & ~waiting) | (k->off_slope & waiting);
-    unfound &= ~waiting;
-    scalar = unfound;
-    may_roll &= k->live & ~unfound & ~in_the_air(params, k);
-    k->rolling = 0;
-    if (may_roll)
-        EACH_REGISTER(i)
-            if (may_roll >> i & REGISTER)
-                k->rolling |= roll_lanes(params, k, i, may_roll, &scalar);
+        listed |= hop_lanes(params, k, i, &scalar);
     k->at_contact = k->rolling;
-    scalar &= ~k->rolling;
-    unsigned still_after_hit = params.stems ? scalar & k->after_hit : 0;
-    scalar &= ~still_after_hit;
-    k->after_hit = still_after_hit;
-    for (; still_after_hit; still_after_hit &= still_after_hit - 1) /* untaken: rounding */
-        land_scalar(k, (size_t)__builtin_ctz(still_after_hit));
-    for (; scalar; scalar &= scalar - 1) {
-        size_t i = (size_t)__builtin_ctz(scalar);
-        depart_scalar(k, i, !(unfound >> i & 1));
-    }
+    scalar |= land_lanes(params, k, listed);
+    k->after_hit = 0;
+    k->off_slope &= ~scalar;
+    for (scalar &= k->live; scalar; scalar &= scalar - 1)
+        depart_scalar(k, (size_t)__builtin_ctz(scalar));
 }
 
 /* Finish the few remaining rocks, one after the other. */
@@ -90,11 +77,6 @@ static void finish_scalar(struct lanes *k)
         size_t i = (size_t)__builtin_ctz(k->live);
         struct walker *w = &k->job->walkers[i];
         struct rock_state c = save_lane(k, i);
-        if (!c.flies && !(k->rolling >> i & 1)) { /* a newly released rock */
-            const struct ground_segment *s = &k->g->segments[c.flight.segment];
-            c.along = c.flight.vx * s->c + c.flight.vz * s->s;
-            c.off = c.flight.vz * s->c - c.flight.vx * s->s;
-        }
         enum ceduo_end end;
         if (!c.landing_unknown || ceduo_walk_land(w, &c, &end))
             end = ceduo_walk_continue(w, &c, k->job->law);
@@ -131,7 +113,7 @@ static void walk_job(const struct lanes_job *job)
     struct lanes k = {.job = job, .ground = job->ground, .live = ALL_LANES};
     for (size_t i = 0; i < LANES; i++) {
         k.radius[i] = 1;
-        refill(&k, i);
+        refill(&k, i, false);
     }
     if (!k.live)
         return;
@@ -141,11 +123,11 @@ static void walk_job(const struct lanes_job *job)
     k.has_chunks = k.g->top > 0;
     k.ground_varies = k.g->rn_varies || k.g->rt_varies || (k.g->theta_varies && !k.g->roughness_index);
     k.theta_varies = k.g->theta_varies;
+    k.small_facets = job->ground->small_facets && !k.theta_varies;
     k.against = k.g->facets == CEDUO_FACETS_AGAINST;
     k.scale_rn = w->scale_rn;
     k.friction_bound = w->friction_bound;
     k.tallest = w->stems ? w->stems->forest->tallest + 1e-6 : 0; /* margin above rounding of heights */
-    k.steep = job->ground->steep;
     static void (*const walks[])(struct lanes *, bool, bool) = {
 #define X(NAME, name) walk_##name,
         CEDUO_LAWS(X)

@@ -5,39 +5,25 @@
 #include "flight.h"
 #include "ground.h"
 
-/* Return the slope of segment j. On long profiles the vertices are in cache but the segment is not: use them, with the same
- * bits. */
-FORCE_INLINE double segment_slope(const struct ground *g, size_t j, bool chunks)
+FORCE_INLINE struct axes axes_of(const struct ground *g, size_t j)
 {
-    return chunks ? (g->vertices[j + 1].z - g->vertices[j].z) / (g->vertices[j + 1].x - g->vertices[j].x) : g->segments[j].m;
+    return (struct axes){g->segments[j].c, g->segments[j].s, g->segments[j].length};
 }
 
-FORCE_INLINE struct chord chord_at(const struct ground *g, size_t j, double m)
+/* Return a landing on segment j. */
+FORCE_INLINE struct landing landing_at(const struct ground *g, size_t j, struct motion m, double t)
 {
-    return (struct chord){
-        .x0 = g->vertices[j].x, .z0 = g->vertices[j].z, .x1 = g->vertices[j + 1].x, .z1 = g->vertices[j + 1].z, .m = m};
+    const struct ground_vertex place = ground_place(g, j, m.q);
+    return (struct landing){.t = t, .x = place.x, .z = place.z, .contact = {j, m.q, m.along, m.off}};
 }
 
 /* Return the contact with segment j, which the flight reaches before time t_max. */
-FORCE_INLINE struct landing land_on(const struct ground *g, const struct flight *f, size_t j, double t_max, bool chunks)
+FORCE_INLINE struct landing land_on(const struct ground *g, const struct flight *f, size_t j, double t_max)
 {
-    if (chunks)
-        __builtin_prefetch(&g->segments[j]);
-    const struct chord chord = chord_at(g, j, segment_slope(g, j, chunks));
-    double c = f->on_ground && j == f->segment ? 0 : f->z - (chord.z0 + chord.m * (f->x - chord.x0));
-    double t = min(t_max, later_root(c, f->vz - chord.m * f->vx, g->gravity)); /* NaN possible if vx is tiny */
-    struct landing l = {.t = t, .x = f->x + f->vx * t, .z = height_at_time(f->z, f->vz, g->half_g, t), .segment = j};
-    snap_to_chord(&chord, is_steep(chord.m), is_steep(chord.m), true, &l.x, &l.z);
-    return l;
-}
-
-/* Return the landing of a vertical flight, at its start. */
-FORCE_INLINE struct landing land_vertical(const struct ground *g, const struct flight *f)
-{
-    double z = ground_height(g, f->segment, f->x);
-    double c = f->on_ground ? 0 : f->z - z;
-    double t = later_root(c, f->vz, g->gravity);
-    return (struct landing){.t = t, .x = f->x, .z = f->on_ground ? f->z : z, .segment = f->segment, .off_slope = false};
+    const struct axes axes = axes_of(g, j);
+    double t, dx = f->x - g->vertices[j].x, dz = f->z - g->vertices[j].z;
+    const struct motion m = come_down_on(&axes, g->gravity, dx, dz, f->vx, f->vz, t_max, &t);
+    return landing_at(g, j, m, t);
 }
 
 /* Return the end of a flight beyond the end of the profile. */
@@ -48,7 +34,7 @@ FORCE_INLINE struct landing land_off_slope(const struct ground *g, const struct 
     return (struct landing){.t = t,
                             .x = g->vertices[p].x,
                             .z = height_at_time(f->z, f->vz, g->half_g, t),
-                            .segment = dir > 0 ? p - 1 : p,
+                            .contact.segment = dir > 0 ? p - 1 : p,
                             .off_slope = true};
 }
 
@@ -62,7 +48,7 @@ FORCE_INLINE struct landing land_from_vertex(const struct ground *g, const struc
         size_t q = dir > 0 ? p + 1 : p - 1;
         double t = (g->vertices[q].x - f->x) * inv;
         if (!(height_at_time(f->z, f->vz, g->half_g, t) - g->vertices[q].z >= 0))
-            return land_on(g, f, dir > 0 ? p : q, t, false);
+            return land_on(g, f, dir > 0 ? p : q, t);
         p = q;
     }
     return land_off_slope(g, f, dir, inv);
@@ -108,7 +94,7 @@ NOINLINE __attribute__((unused)) struct landing land_from_vertex_chunked(const s
                 break;
             }
             if (level == 0)
-                return land_on(g, f, i, t, true);
+                return land_on(g, f, i, t);
             barrier = q;
             max = --level;
         }
@@ -116,34 +102,49 @@ NOINLINE __attribute__((unused)) struct landing land_from_vertex_chunked(const s
     return land_off_slope(g, f, dir, inv);
 }
 
-FORCE_INLINE struct landing land_towards(const struct ground *g, const struct flight *f, int dir, bool chunks)
+/* Return the next contact of a flight, which moves towards dir. `clears`: it clears the end of its segment. `chunks`: the ground
+ * has chunks. The walk passes a constant, because an unneeded call would cost registers. */
+FORCE_INLINE struct landing land_towards(const struct ground *g, const struct flight *f, int dir, bool clears, bool chunks)
 {
-    double inv = 1 / f->vx;
-    size_t j = f->segment, q = dir > 0 ? j + 1 : j;
-    double t = (g->vertices[q].x - f->x) * inv;
-    /* c is exactly 0 on the ground: compare slopes, because heights may overflow if vx is tiny */
-    if (f->on_ground && !(f->vz - g->segments[j].m * f->vx >= g->half_g * t))
-        return land_on(g, f, j, t, chunks);
+    size_t q = dir > 0 ? f->segment + 1 : f->segment;
+    double inv = 1 / f->vx, t = (g->vertices[q].x - f->x) * inv;
     double h = height_at_time(f->z, f->vz, g->half_g, t) - g->vertices[q].z;
-    if (!f->on_ground && !(h >= 0))
-        return land_on(g, f, j, t, chunks);
+    if (!clears && !(h >= 0))
+        return land_on(g, f, f->segment, t);
     return chunks ? land_from_vertex_chunked(g, f, q, h, dir, inv) : land_from_vertex(g, f, q, dir, inv);
 }
 
-/* Return the next contact of a flight with the ground. `chunks`: the ground has chunks. The walk passes a constant, because an
- * unneeded call would cost registers. */
-FORCE_INLINE struct landing next_landing_over(const struct ground *g, const struct flight *f, bool chunks)
-{
-    if (f->vx > 0)
-        return land_towards(g, f, 1, chunks);
-    if (f->vx < 0)
-        return land_towards(g, f, -1, chunks);
-    return land_vertical(g, f);
-}
-
+/* Return the next contact of a flight above the ground. */
 FORCE_INLINE struct landing next_landing(const struct ground *g, const struct flight *f)
 {
-    return next_landing_over(g, f, g->top > 0);
+    if (f->vx == 0)
+        return land_on(g, f, f->segment, INFINITY);
+    return land_towards(g, f, f->vx > 0 ? 1 : -1, false, g->top > 0);
+}
+
+/* Return the flight that begins at a contact. */
+FORCE_INLINE struct flight begin_flight(const struct ground *g, const struct contact *contact)
+{
+    const struct ground_segment *s = &g->segments[contact->segment];
+    const struct ground_vertex place = ground_place(g, contact->segment, contact->q);
+    return (struct flight){.x = place.x,
+                           .z = place.z,
+                           .vx = contact->along * s->c - contact->off * s->s,
+                           .vz = contact->along * s->s + contact->off * s->c,
+                           .segment = contact->segment};
+}
+
+/* Return the contact after this one, at the end of the flight `f` that begins here. */
+FORCE_INLINE struct landing next_contact(const struct ground *g, const struct contact *contact, const struct flight *f,
+                                         bool chunks)
+{
+    const struct axes axes = axes_of(g, contact->segment);
+    double t;
+    bool leaves;
+    struct motion m = hop(&axes, g->gravity, (struct motion){contact->q, contact->along, contact->off}, &t, &leaves);
+    if (!leaves)
+        return landing_at(g, contact->segment, m, t);
+    return f->vx > 0 ? land_towards(g, f, 1, true, chunks) : land_towards(g, f, -1, true, chunks);
 }
 
 #endif

@@ -7,23 +7,23 @@
 /* The walk of walk.h for several rocks at once, one per lane of wide registers, with the same bits for every rock. Rare events
  * (marks, rolling over vertices and past stems, far landings on long slopes) are done lane by lane by the scalar walk. */
 
-/* Two numbers per vertex or segment i, at [i + 1 << shift]; see lookup(). */
-#define TABLE_SMALL 16
+/* Two numbers per vertex or segment i, at [i + 1 << shift]; see lookup_at(). */
+#define TABLE_SMALL   16
+#define SEGMENT_SHIFT 2 /* in a table of segments */
 struct lanes_table {
     _Alignas(64) double first[TABLE_SMALL], second[TABLE_SMALL]; /* copy of a small table */
     const double (*pairs)[2];
-    int shift;
 };
 
 /* The ground as tables. They point into struct ground. */
 struct lanes_ground {
     struct lanes_table vertices;     /* x, z of a vertex */
-    struct lanes_table slopes;       /* m, largest facet angle */
+    struct lanes_table lengths;      /* length, largest facet angle */
     struct lanes_table tangents;     /* c, s */
     struct lanes_table restitutions; /* rn, rt */
     struct lanes_table frictions;    /* mu, friction */
-    bool steep;                      /* some segment is steeper than 45 degrees */
     bool small;                      /* all tables fit TABLE_SMALL */
+    bool small_facets;               /* the largest facet angles are at most pi/4 */
 };
 
 /* Return the tables; NULL without memory. Caller frees them before the ground. */

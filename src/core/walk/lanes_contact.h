@@ -53,8 +53,9 @@ FORCE_INLINE unsigned find_scalar_lanes(struct kernel_params params, const struc
     unsigned mark = 0, stem = 0, pausing = 0;
     EACH_REGISTER(i) {
         real x = load(&k->to_x[i]);
-        mark |= lane_bits(greater_equal(x, load(&k->next_x[i])) & less(splat(0), load(&k->vx[i]))) << i;
-        stem |= lane_bits(greater_equal(x, load(&k->stem_ahead[i])) | greater_equal(load(&k->stem_behind[i]), x)) << i;
+        mark |= lane_bits(greater_equal(x, load(&k->next_x[i]))) << i;
+        if (params.stems)
+            stem |= lane_bits(greater_equal(x, load(&k->stem_ahead[i])) | greater_equal(load(&k->stem_behind[i]), x)) << i;
         pausing |= (REGISTER & ~lane_bits(greater_ints(load_ints(&k->pause[i]), load_ints(&k->contacts[i])))) << i;
     }
     unsigned lands = k->live & ~in_the_air(params, k), flies = lands & ~k->at_contact;
@@ -69,7 +70,7 @@ NOINLINE void load_ground_scalar(struct kernel_params params, struct lanes *k)
 {
     for (size_t i = 0; i < LANES; i++)
         if ((k->live & ~in_the_air(params, k)) >> i & 1)
-            ceduo_walk_ground(&k->job->walkers[i], k->to[i] - 1, &k->rn[i], &k->rt[i], &k->theta[i]);
+            ceduo_walk_ground(&k->job->walkers[i], k->segment[i] - 1, &k->rn[i], &k->rt[i], &k->theta[i]);
 }
 
 /* Load the largest facet angles, if only these vary, with the rock's radius. */
@@ -77,17 +78,24 @@ FORCE_INLINE void load_theta(struct lanes *k)
 {
     const unsigned char *rough = k->g->roughness_index;
     for (size_t i = 0; i < LANES; i++)
-        if (k->to[i] - 1 < k->g->n)
-            k->theta[i] = k->job->walkers[i].theta[rough[k->to[i] - 1]];
+        if (k->segment[i] - 1 < k->g->n)
+            k->theta[i] = k->job->walkers[i].theta[rough[k->segment[i] - 1]];
 }
 
 /* Draw the orientation of facets and sections, for the lanes from i on. */
 FORCE_INLINE void draw_facets(struct kernel_params params, struct lanes *k, size_t i)
 {
-    real sine, cosine, largest = load(&k->theta[i]);
+    real sine, cosine, length, largest;
+    lookup_segments(&k->ground->lengths, &k->segment[i], params.small, &length, &largest);
+    store(&k->length[i], length);
+    if (k->ground_varies || k->theta_varies)
+        largest = load(&k->theta[i]);
     real angle = facet_angle(k->against, largest, next_draw(params, k, k->draw, i));
     angle = blend(less(splat(0), largest), angle, splat(0));
-    lanes_sincos(&angle, &sine, &cosine);
+    if (k->small_facets)
+        lanes_sincos_small(&angle, &sine, &cosine);
+    else
+        lanes_sincos(&angle, &sine, &cosine);
     store(&k->facet.sine[i], sine);
     store(&k->facet.cosine[i], cosine);
     if (params.law->sections) {
@@ -99,7 +107,7 @@ FORCE_INLINE void draw_facets(struct kernel_params params, struct lanes *k, size
 }
 
 /* Return the parameters of the law for the lanes from i on. */
-FORCE_INLINE struct ground_point load_ground_points(struct kernel_params params, struct lanes *k, size_t i, ints segment)
+FORCE_INLINE struct ground_point load_ground_points(struct kernel_params params, struct lanes *k, size_t i)
 {
     struct ground_point point = {.radius = load(&k->radius[i]), .k = load(&k->k[i]), .scale_rn = k->scale_rn};
     point.bound = k->friction_bound;
@@ -107,10 +115,9 @@ FORCE_INLINE struct ground_point load_ground_points(struct kernel_params params,
         point.rn = load(&k->rn[i]);
         point.rt = load(&k->rt[i]);
     } else {
-        lookup(&k->ground->restitutions, segment, params.small, &point.rn, &point.rt);
+        lookup_segments(&k->ground->restitutions, &k->segment[i], params.small, &point.rn, &point.rt);
     }
-    if (params.law->sections || k->friction_bound)
-        lookup(&k->ground->frictions, segment, params.small, &point.mu, &point.friction);
+    lookup_segments(&k->ground->frictions, &k->segment[i], params.small, &point.mu, &point.friction);
     if (params.law->sections) {
         point.sine = load(&k->section_turn.sine[i]);
         point.cosine = load(&k->section_turn.cosine[i]);
@@ -122,50 +129,32 @@ FORCE_INLINE struct ground_point load_ground_points(struct kernel_params params,
     return point;
 }
 
-/* Land and strike the lanes from i on, except those in the air. */
+/* Strike the ground with the lanes from i on, except those in the air. */
 FORCE_INLINE void strike_lanes(struct kernel_params params, struct lanes *k, size_t i)
 {
-    real c, s, sine, cosine, vx = load(&k->vx[i]), vz = load(&k->vz[i]) - k->g->gravity * load(&k->t[i]);
-    ints segment = load_ints(&k->to[i]);
-    lookup(&k->ground->tangents, segment, params.small, &c, &s);
-    struct velocity v = velocity_on(c, s, vx, vz);
-    if (k->rolling) {
-        mask rolls = lane_mask(k->rolling >> i);
-        v.along = blend(rolls, load(&k->along[i]), v.along);
-        v.off = blend(rolls, splat(0), v.off);
-    }
-    sine = load(&k->facet.sine[i]);
-    cosine = load(&k->facet.cosine[i]);
+    real c, s, sine = load(&k->facet.sine[i]), cosine = load(&k->facet.cosine[i]), spin = load(&k->spin[i]);
+    lookup_segments(&k->ground->tangents, &k->segment[i], params.small, &c, &s);
+    const struct ground_point point = load_ground_points(params, k, i);
+    struct velocity v = {load(&k->to.along[i]), load(&k->to.off[i])};
+    store(&k->c[i], c);
+    store(&k->s[i], s);
+    store(&k->friction[i], point.friction);
     facet_struck(k->against, v, &sine, &cosine);
-    const struct ground_point point = load_ground_points(params, k, i, segment);
-    real spin = load(&k->spin[i]), x = load(&k->to_x[i]), z = load(&k->to_z[i]);
-    store(&k->before_contact.along[i], v.along);
-    store(&k->before_contact.spin[i], spin);
-    v = strike(params.law, &point, sine, cosine, v, &spin);
-    vx = v.along * c - v.off * s;
-    vz = v.along * s + v.off * c;
-    ints contacts = load_ints(&k->contacts[i]);
-    if (in_the_air(params, k)) {
-        mask in_air = lane_mask(in_the_air(params, k) >> i), waiting = lane_mask(k->waiting >> i);
-        vx = blend(in_air, load(&k->vx[i]), vx);
-        vz = blend(in_air, load(&k->vz[i]), vz);
-        spin = blend(in_air, load(&k->spin[i]), spin);
-        x = blend(waiting, load(&k->x[i]), x);
-        z = blend(waiting, load(&k->z[i]), z);
-        segment = blend_ints(waiting, load_ints(&k->segment[i]), segment);
-        contacts = blend_ints(in_air, contacts, contacts + 1);
-    } else {
-        contacts += 1;
+    if (k->friction_bound) {
+        store(&k->before_contact.along[i], v.along);
+        store(&k->before_contact.spin[i], spin);
     }
-    store_ints(&k->contacts[i], contacts);
+    v = strike(params.law, &point, sine, cosine, v, &spin);
+    ints contacts = load_ints(&k->contacts[i]), next = contacts + 1;
+    if (in_the_air(params, k)) {
+        mask in_air = lane_mask(in_the_air(params, k) >> i);
+        spin = blend(in_air, load(&k->spin[i]), spin);
+        next = blend_ints(in_air, contacts, next);
+    }
+    store(&k->after.along[i], v.along);
+    store(&k->after.off[i], v.off);
     store(&k->spin[i], spin);
-    store(&k->vx[i], vx);
-    store(&k->vz[i], vz);
-    store(&k->x[i], x);
-    store(&k->z[i], z);
-    store_ints(&k->segment[i], segment);
-    store(&k->along[i], v.along);
-    store(&k->off[i], v.off);
+    store_ints(&k->contacts[i], next);
 }
 
 #endif

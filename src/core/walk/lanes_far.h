@@ -96,26 +96,27 @@ FORCE_INLINE unsigned search_level(const struct lanes *k, struct far_search *sea
     return landed;
 }
 
-/* Advance each of `lanes` from its vertex, which it clears, to the last vertex that it clears. Passes go up to larger chunks
- * and down again, all lanes of a level at a time. */
-NOINLINE void search_far(struct lanes *k, unsigned lanes)
+/* Advance each of `flights` to the segment of its landing. Passes go up to larger chunks and down again, all flights of a level
+ * at a time. */
+NOINLINE void search_far(struct lanes *k, unsigned flights)
 {
+    struct leaving *f = &k->leaving;
     struct far_search searches[LANES];
-    unsigned lanes_at[GROUND_LEVELS] = {lanes};
-    for (size_t i = 0; i < LANES; i++) {
-        searches[i] = (struct far_search){k->x[i], k->z[i], k->vz[i], k->inv[i], k->vertex[i] - 1};
-        if (lanes >> i & 1)
-            prefetch_search(k, &searches[i], 0);
+    unsigned at_level[GROUND_LEVELS] = {flights};
+    for (unsigned rest = flights; rest; rest &= rest - 1) {
+        size_t i = (size_t)__builtin_ctz(rest);
+        searches[i] = (struct far_search){f->x[i], f->z[i], f->vz[i], f->inv[i], f->segment[i] - 1};
+        prefetch_search(k, &searches[i], 0);
     }
-    for (unsigned remaining = lanes; remaining;) {
+    for (unsigned remaining = flights; remaining;) {
         for (int level = 0; level <= k->g->top; level++)
-            remaining &= ~search_level(k, searches, level, lanes_at);
+            remaining &= ~search_level(k, searches, level, at_level);
         for (int level = k->g->top; level >= 0; level--)
-            remaining &= ~search_level(k, searches, level, lanes_at);
+            remaining &= ~search_level(k, searches, level, at_level);
     }
-    for (; lanes; lanes &= lanes - 1) {
-        size_t i = (size_t)__builtin_ctz(lanes);
-        k->vertex[i] = searches[i].vertex + 1;
+    for (; flights; flights &= flights - 1) {
+        size_t i = (size_t)__builtin_ctz(flights);
+        f->segment[i] = searches[i].vertex + 1;
     }
 }
 

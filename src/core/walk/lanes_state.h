@@ -13,52 +13,47 @@
 #define EACH_REGISTER(i) for (size_t i = 0; i < LANES; i += REAL_LANES)
 #define ALL_LANES        ((unsigned)(((uint64_t)1 << LANES) - 1))
 
-#ifdef LOOKUP_16
-#define LOOKUP_WRAPS true /* lookup() in a small table uses i modulo 16 */
-#else
-#define LOOKUP_WRAPS false
-#endif
-
-/* Look up the two numbers at i of a table, for each lane. `small`: the table has at most 16 entries. */
-FORCE_INLINE void lookup(const struct lanes_table *table, ints i, bool small, real *first, real *second)
+/* Look up the two numbers of a table at each of some segments or vertices. `small`: the table has at most 16 entries. */
+FORCE_INLINE void lookup_at(const struct lanes_table *table, const uint64_t *i, int shift, bool small, real *first,
+                            real *second)
 {
 #ifdef LOOKUP_16
     /* untaken 2: machine */
     if (small) { /* in registers */
-        *first = lookup_16(table->first, i);
-        *second = lookup_16(table->second, i);
+        *first = lookup_16(table->first, load_ints(i));
+        *second = lookup_16(table->second, load_ints(i));
         return;
     }
 #endif
     (void)small;
+    gather_pairs(table->pairs, i, shift, first, second);
+}
+
+FORCE_INLINE void lookup_segments(const struct lanes_table *table, const uint64_t *i, bool small, real *first, real *second)
+{
+    lookup_at(table, i, SEGMENT_SHIFT, small, first, second);
+}
+
+/* Look up the x of the vertices after `i`. */
+FORCE_INLINE void lookup_next_x(const struct lanes_table *table, const uint64_t *i, bool small, real *x)
+{
+#ifdef LOOKUP_16
+    /* untaken 2: machine */
+    if (small) {
+        *x = lookup_16(table->first, load_ints(i) + 1);
+        return;
+    }
+#endif
+    (void)small;
+    real z;
+    gather_pairs(table->pairs + 1, i, 0, x, &z);
+}
+
+FORCE_INLINE void lookup_vertices(const struct lanes_table *table, ints i, bool small, real *first, real *second)
+{
     uint64_t index[REAL_LANES];
-    store_ints(index, i << table->shift);
-    gather_pairs(table->pairs, index, first, second);
-}
-
-/* A chord in each lane. */
-struct chords {
-    double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES];
-};
-
-FORCE_INLINE struct chord load_chord(const struct chords *from, size_t i)
-{
-    return (struct chord){load(&from->x0[i]), load(&from->z0[i]), load(&from->x1[i]), load(&from->z1[i]), load(&from->m[i])};
-}
-
-FORCE_INLINE void store_chord(struct chords *to, size_t i, struct chord chord)
-{
-    store(&to->x0[i], chord.x0);
-    store(&to->z0[i], chord.z0);
-    store(&to->x1[i], chord.x1);
-    store(&to->z1[i], chord.z1);
-    store(&to->m[i], chord.m);
-}
-
-FORCE_INLINE struct chord blend_chord(mask m, struct chord p, struct chord q)
-{
-    return (struct chord){blend(m, p.x0, q.x0), blend(m, p.z0, q.z0), blend(m, p.x1, q.x1), blend(m, p.z1, q.z1),
-                          blend(m, p.m, q.m)};
+    store_ints(index, i);
+    lookup_at(table, index, 0, small, first, second);
 }
 
 /* Compile-time parameters of the step functions. */
@@ -68,8 +63,18 @@ struct kernel_params {
     bool stems; /* there are stems */
 };
 
-/* State of all rocks in the lanes between two contacts. `segment` and `to` count from 1, as the tables of struct lanes_ground;
- * 0 and n + 1 lie off the slope. */
+/* Flights that leave the segment of their start, one after the other without gaps. */
+struct leaving {
+    _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES];
+    double inv[LANES];       /* 1/vx */
+    double reach[LANES];     /* m along x: a flight that lands nearer may be a roll */
+    uint64_t segment[LANES]; /* of the search, finally of the landing */
+    double t[LANES], to_x[LANES], q[LANES], along[LANES], off[LANES];
+    unsigned n;
+};
+
+/* State of all rocks in the lanes between two contacts. Segments count from 1, as the tables of struct lanes_ground; 0 and
+ * n + 1 lie off the slope. */
 struct lanes {
     const struct lanes_job *job;
     const struct lanes_ground *ground;
@@ -78,23 +83,22 @@ struct lanes {
     bool has_chunks;    /* the ground has chunks */
     bool ground_varies; /* the ground varies between rocks */
     bool theta_varies;  /* or only the largest facet angle, with the rock's radius */
+    bool small_facets;  /* facet angles are at most pi/4 */
     bool against, scale_rn, friction_bound;
-    bool steep; /* some segment is steeper than 45 degrees */
 
-    _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES];
-    uint64_t segment[LANES];
-    /* next landing, with the ends, slope and largest facet angle of its segment */
-    double t[LANES], to_x[LANES], to_z[LANES];
-    uint64_t to[LANES];
-    struct chords chords;
-    double theta[LANES];
-    double along[LANES], off[LANES]; /* m/s: velocity in the segment's axes after a contact */
+    /* next contact, and the motion after the last one, on segment `from` */
+    _Alignas(64) uint64_t segment[LANES], from[LANES];
+    struct motions {
+        double q[LANES], along[LANES], off[LANES];
+    } to, after;
+    double spin[LANES];
+    double x[LANES], z[LANES], vx[LANES], vz[LANES], t[LANES], to_x[LANES];  /* the flight to it, unless at_contact */
+    double c[LANES], s[LANES], length[LANES], theta[LANES], friction[LANES]; /* of the ground at the contact */
     struct {
         double along[LANES], spin[LANES];
-    } before_contact;       /* of lanes that rolled to the contact */
-    double inv[LANES];      /* 1/vx */
-    uint64_t vertex[LANES]; /* from 1; vertex reached by the search for the landing */
-    double draw[3][LANES];  /* draws for the facets of the next contacts */
+    } before_contact; /* of lanes that rolled to the contact */
+    struct leaving leaving;
+    double draw[3][LANES]; /* draws for the facets of the next contacts */
     struct {
         double sine[LANES], cosine[LANES];
     } facet, section_turn; /* orientations of facet and section */
@@ -121,8 +125,8 @@ struct lanes {
 
     /* bit i is lane i */
     unsigned live;            /* has a rock */
-    unsigned at_contact;      /* has reached its next contact, at to_x, to_z */
-    unsigned rolling;         /* likewise, rolling with speed `along`; vx, vz are not set */
+    unsigned at_contact;      /* has reached its next contact without a flight */
+    unsigned rolling;         /* likewise, by rolling */
     unsigned rolled;          /* rolled to its last contact; if it still rolls, its motion continues */
     unsigned off_slope;       /* lands off the slope */
     unsigned need_draws;      /* has no draws yet */
@@ -136,16 +140,6 @@ struct lanes {
 };
 
 _Static_assert(offsetof(struct lanes, contacts) % 64 == 0, "what is for lanes is loaded from whole lines of the cache");
-
-/* Look up segments, and their largest facet angles. */
-FORCE_INLINE struct chord lookup_chord(struct kernel_params params, const struct lanes *k, ints segment, real *theta)
-{
-    struct chord chord;
-    lookup(&k->ground->vertices, segment, params.small, &chord.x0, &chord.z0);
-    lookup(&k->ground->vertices, segment + 1, params.small, &chord.x1, &chord.z1);
-    lookup(&k->ground->slopes, segment, params.small, &chord.m, theta);
-    return chord;
-}
 
 /* Return the lanes without a contact in this step. */
 FORCE_INLINE unsigned in_the_air(struct kernel_params params, const struct lanes *k)
@@ -190,10 +184,9 @@ static void load_stem(struct lanes *k, size_t i)
 {
     const struct walker *w = &k->job->walkers[i];
     unsigned bit = 1u << i;
+    k->stem_behind[i] = w->stem_behind;
     k->stem_ahead[i] = w->stem_ahead;
     k->stem_unknown &= ~bit;
-    if (!w->stems)
-        return;
     struct stems_side *side = &w->stems->side[0];
     k->stem.hit[i] = w->stems_hit;
     k->stem.stools_met[i] = w->stools_met;
@@ -220,32 +213,38 @@ static void load_stem(struct lanes *k, size_t i)
 /* Load a state, and the members of the walker that the scalar walk may have changed. */
 static void load_state(struct lanes *k, size_t i, const struct rock_state *c)
 {
-    const struct lanes_ground *ground = k->ground;
     const struct walker *w = &k->job->walkers[i];
+    const struct contact *contact = c->flies ? &c->l.contact : &c->contact;
     k->spin[i] = w->spin;
     k->next_x[i] = w->next_x;
-    k->stem_behind[i] = w->stem_behind;
     k->contacts[i] = w->contacts;
     k->pause[i] = w->pause;
-    load_stem(k, i);
+    if (w->stems)
+        load_stem(k, i);
+    k->segment[i] = contact->segment + 1;
+    k->to.q[i] = contact->q;
+    k->to.along[i] = contact->along;
+    k->to.off[i] = contact->off;
+    if (!c->flies)
+        return;
     k->x[i] = c->flight.x;
     k->z[i] = c->flight.z;
     k->vx[i] = c->flight.vx;
     k->vz[i] = c->flight.vz;
-    k->segment[i] = c->flight.segment + 1;
-    k->t[i] = c->flies ? c->l.t : 0;
-    k->to_x[i] = c->flies ? c->l.x : c->flight.x;
-    k->to_z[i] = c->flies ? c->l.z : c->flight.z;
-    k->along[i] = c->along;
-    uint64_t j = c->flies ? c->l.segment + 1 : c->flight.segment + 1;
-    k->to[i] = j;
-    k->chords.x0[i] = ground->vertices.pairs[j][0];
-    k->chords.z0[i] = ground->vertices.pairs[j][1];
-    k->chords.x1[i] = ground->vertices.pairs[j + 1][0];
-    k->chords.z1[i] = ground->vertices.pairs[j + 1][1];
-    const double *slope = ground->slopes.pairs[j << ground->slopes.shift];
-    k->chords.m[i] = slope[0];
-    k->theta[i] = slope[1];
+    k->from[i] = c->flight.segment + 1;
+    k->t[i] = c->l.t;
+    k->to_x[i] = c->l.x;
+}
+
+static struct flight flight_of(const struct lanes *k, size_t i)
+{
+    return (struct flight){k->x[i], k->z[i], k->vx[i], k->vz[i], (size_t)k->from[i] - 1};
+}
+
+/* Return the height of a flight after t. */
+static double height_of(const struct lanes *k, size_t i, double t)
+{
+    return k->z[i] + (k->vz[i] - k->g->half_g * t) * t;
 }
 
 /* Save a lane to its walker, and return its state. */
@@ -253,28 +252,36 @@ static struct rock_state save_lane(struct lanes *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     unsigned bit = 1u << i;
-    bool off_slope = k->off_slope & bit;
-    size_t to = off_slope ? (k->vx[i] < 0 ? 0 : w->g->n - 1) : k->to[i] - 1;
     w->spin = k->spin[i];
     w->contacts = k->contacts[i];
     save_stems(k, i);
-    bool at_contact = k->at_contact & bit, rolling = k->rolling & bit;
-    const struct ground_segment *s = &k->g->segments[k->segment[i] - 1];
-    return (struct rock_state){.flight = {.x = at_contact ? k->to_x[i] : k->x[i],
-                                          .z = at_contact ? k->to_z[i] : k->z[i],
-                                          .vx = rolling ? k->along[i] * s->c : k->vx[i],
-                                          .vz = rolling ? k->along[i] * s->s : k->vz[i],
-                                          .segment = k->segment[i] - 1,
-                                          .on_ground = !((k->after_hit | k->landing_unknown) & bit)},
-                               .flies = !at_contact,
-                               .landing_unknown = (k->after_hit | k->landing_unknown) & bit,
-                               .rolled = rolling,
-                               .along = k->along[i],
-                               .l = {.t = k->t[i], .x = k->to_x[i], .z = k->to_z[i], .segment = to, .off_slope = off_slope}};
+    struct rock_state c = {.contact = {(size_t)k->segment[i] - 1, k->to.q[i], k->to.along[i], k->to.off[i]},
+                           .flies = !(k->at_contact & bit),
+                           .landing_unknown = (k->after_hit | k->landing_unknown) & bit,
+                           .rolled = k->rolling & bit,
+                           .flight = flight_of(k, i)};
+    c.l = (struct landing){k->t[i], k->to_x[i], height_of(k, i, k->t[i]), c.contact, k->off_slope & bit};
+    if (c.l.off_slope)
+        c.l.contact.segment = k->vx[i] > 0 ? k->g->n - 1 : 0;
+    return c;
 }
 
-/* Load the next rock, at its first contact. */
-static void refill(struct lanes *k, size_t i)
+static void load_rock(struct lanes *k, size_t i)
+{
+    const struct walker *w = &k->job->walkers[i];
+    k->radius[i] = w->rock.radius;
+    k->k[i] = w->k;
+    k->mass[i] = w->rock.mass;
+    k->moment[i] = w->rock.moment;
+    k->section.wide[i] = w->section.wide;
+    k->section.high[i] = w->section.high;
+    k->section.reach[i] = w->section.reach;
+    k->section.gyration[i] = w->section.gyration;
+}
+
+/* Load the next rock, at its first contact. `shared`: its start and, unless it has a section, the rock are those of the rock
+ * before. */
+static void refill(struct lanes *k, size_t i, bool shared)
 {
     const struct lanes_job *job = k->job;
     struct walker *w = &job->walkers[i];
@@ -285,29 +292,23 @@ static void refill(struct lanes *k, size_t i)
     while (job->next(job->context, i)) {
         enum ceduo_end end;
         double mark = w->next_x;
-        bool is_shared = k->shared_start;
-        if (is_shared || ceduo_walk_start(w, &k->start, &end)) {
+        if (shared || ceduo_walk_start(w, &k->start, &end)) {
             load_state(k, i, &k->start);
-            k->radius[i] = w->rock.radius;
-            k->k[i] = w->k;
-            k->mass[i] = w->rock.mass;
-            k->moment[i] = w->rock.moment;
+            if (!shared || w->has_section)
+                load_rock(k, i);
             k->number[i] = w->number;
-            k->section.wide[i] = w->section.wide;
-            k->section.high[i] = w->section.high;
-            k->section.reach[i] = w->section.reach;
-            k->section.gyration[i] = w->section.gyration;
             k->need_draws |= bit;
-            k->shared_start = is_shared || (job->identical && w->next_x == mark);
+            k->shared_start = job->identical && w->next_x == mark;
             return;
         }
         job->ended(job->context, i, end);
     }
-    /* An idle lane is computed like any other lane; its results are ignored. */
+    /* An idle lane is computed like any other lane; its results are ignored. It stands still, so that it stays on the slope. */
     k->exhausted = true;
     k->live &= ~bit;
     k->stem_unknown &= ~bit;
-    k->segment[i] = k->to[i] = 1;
+    k->segment[i] = 1;
+    k->to.q[i] = k->to.along[i] = k->to.off[i] = k->spin[i] = 0;
     k->next_x[i] = k->stem_ahead[i] = INFINITY;
     k->stem_behind[i] = -INFINITY;
     k->contacts[i] = 0;
@@ -317,7 +318,7 @@ static void refill(struct lanes *k, size_t i)
 static void finish(struct lanes *k, size_t i, enum ceduo_end end)
 {
     k->job->ended(k->job->context, i, end);
-    refill(k, i);
+    refill(k, i, k->shared_start);
 }
 
 /* ---- rare events ---- */
@@ -339,56 +340,47 @@ NOINLINE void land_scalar(struct lanes *k, size_t i)
     k->off_slope &= ~bit;
 }
 
-/* End a flight at (x, z). */
-NOINLINE void end_lane(struct lanes *k, size_t i, double x, double z, enum ceduo_end end)
+/* End a flight after t, at x. */
+NOINLINE void end_lane(struct lanes *k, size_t i, double x, double t, enum ceduo_end end)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
     save_stems(k, i);
     w->flight.x = x;
-    w->flight.z = z;
+    w->flight.z = height_of(k, i, t);
     finish(k, i, end);
-}
-
-/* Report the marks that a flight passes up to x, which it reaches after t. */
-FORCE_INLINE void pass_marks(struct lanes *k, size_t i, const struct flight *flight, double x, double t, double spin)
-{
-    struct walker *w = &k->job->walkers[i];
-    w->spin = spin;
-    save_stems(k, i);
-    ceduo_walk_pass_marks(w, *flight, x, t);
-    k->next_x[i] = w->next_x;
-    k->pause[i] = w->pause;
 }
 
 /* Report the marks that a flight passes before its landing. */
 NOINLINE void pass_marks_scalar(struct lanes *k, size_t i)
 {
-    struct flight flight = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
-    pass_marks(k, i, &flight, k->to_x[i], k->t[i], k->spin[i]);
+    struct walker *w = &k->job->walkers[i];
+    const struct flight flight = flight_of(k, i);
+    w->spin = k->spin[i];
+    save_stems(k, i);
+    if (flight.vx > 0) /* untaken: rounding */
+        ceduo_walk_pass_marks(w, &flight, k->to_x[i], k->t[i]);
+    k->next_x[i] = w->next_x;
+    k->pause[i] = w->pause;
 }
 
-/* Continue after a contact, if the rock rolls or flies vertically, or if the search for its landing is long. */
-NOINLINE void depart_scalar(struct lanes *k, size_t i, bool landing_known)
+/* Continue after a contact, if the rock may roll, or if the search for its landing is long. */
+NOINLINE void depart_scalar(struct lanes *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     struct rock_state c = save_lane(k, i);
     unsigned bit = 1u << i;
     uint64_t contacts = w->contacts;
     enum ceduo_end end;
-    c.off = k->off[i];
-    bool rolling = ceduo_walk_rolls(w, &c, landing_known);
-    if (!rolling && landing_known) /* as in the lane */
-        return;
+    c.contact = (struct contact){(size_t)k->from[i] - 1, k->after.q[i], k->after.along[i], k->after.off[i]};
     const struct rolling before = {k->before_contact.along[i], k->before_contact.spin[i]};
-    if (rolling && !ceduo_walk_roll(w, &c, k->rolled & bit ? &before : NULL, &end)) {
+    if (ceduo_walk_rolls(w, &c) && !ceduo_walk_roll(w, &c, k->rolled & bit ? &before : NULL, &end)) {
         finish(k, i, end);
         return;
     }
     load_state(k, i, &c);
     if (w->contacts != contacts)
         load_draws(k, i);
-    k->off_slope &= ~bit;
     if (c.flies) {
         k->off_slope |= c.l.off_slope ? bit : 0;
     } else {

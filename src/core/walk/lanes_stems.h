@@ -12,6 +12,20 @@
 #define WAITING_MAX (LANES / 4) /* with at most n lanes among stems they wait for more; affects only speed */
 #endif
 
+/* A segment of the ground, with its slope dz/dx. */
+struct chord {
+    real x0, z0, x1, z1, m;
+};
+
+struct chords {
+    double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES];
+};
+
+FORCE_INLINE struct chord load_chord(const struct chords *from, size_t i)
+{
+    return (struct chord){load(&from->x0[i]), load(&from->z0[i]), load(&from->x1[i]), load(&from->z1[i]), load(&from->m[i])};
+}
+
 /* Flights past stems. */
 struct passing {
     /* of the next stem */
@@ -27,6 +41,22 @@ struct passing {
     unsigned stopped;       /* stopped by a stem */
     unsigned aborted;       /* trajectory aborted */
 };
+
+/* Look up the chord of a segment, and store it. */
+FORCE_INLINE struct chord lookup_chord(struct kernel_params params, const struct lanes *k, ints segment, struct chords *to,
+                                       size_t i)
+{
+    struct chord chord;
+    lookup_vertices(&k->ground->vertices, segment, params.small, &chord.x0, &chord.z0);
+    lookup_vertices(&k->ground->vertices, segment + 1, params.small, &chord.x1, &chord.z1);
+    chord.m = (chord.z1 - chord.z0) / (chord.x1 - chord.x0);
+    store(&to->x0[i], chord.x0);
+    store(&to->z0[i], chord.z0);
+    store(&to->x1[i], chord.x1);
+    store(&to->z1[i], chord.z1);
+    store(&to->m[i], chord.m);
+    return chord;
+}
 
 /* Find the segment under the next stem by bisection, for the lanes `advancing` from i on. It may be hundreds of segments
  * away. */
@@ -44,7 +74,6 @@ FORCE_INLINE void go_to_segment(struct kernel_params params, const struct lanes 
 {
     unsigned beyond = (p->active & p->landing_known) >> i & REGISTER & ~lane_bits(greater_equal(load(&p->end[i]), to));
     ints segment = load_ints(&p->segment[i]), last = load_ints(&p->last[i]);
-    real theta;
     mask advancing = lane_mask(beyond) & greater_equal(to, chord->x1) & greater_ints(last, segment);
     while (any(advancing)) {
         if (k->has_chunks) {
@@ -54,8 +83,7 @@ FORCE_INLINE void go_to_segment(struct kernel_params params, const struct lanes 
             segment = blend_ints(advancing, segment + 1, segment);
             store_ints(&p->segment[i], segment);
         }
-        *chord = lookup_chord(params, k, segment, &theta);
-        store_chord(&p->chords, i, *chord);
+        *chord = lookup_chord(params, k, segment, &p->chords, i);
         advancing &= greater_equal(to, chord->x1) & greater_ints(last, segment);
     }
 }
@@ -66,10 +94,10 @@ NOINLINE void consume_stems_scalar(struct lanes *k, struct passing *p, unsigned 
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
         struct walker *w = &k->job->walkers[i];
-        struct flight flight = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
+        const struct flight flight = flight_of(k, i);
         w->spin = k->spin[i];
         save_stems(k, i);
-        if (!ceduo_walk_hit_stem(w, hit >> i & 1, flight, p->t[i]))
+        if (!ceduo_walk_hit_stem(w, hit >> i & 1, &flight, p->t[i]))
             p->aborted |= 1u << i;
         load_stem(k, i);
         k->next_x[i] = w->next_x;
@@ -150,7 +178,8 @@ FORCE_INLINE unsigned come_to_stem(struct kernel_params params, struct lanes *k,
     real t = (to - load(&k->x[i])) / load(&k->vx[i]);
     mask landing_known = lane_mask(p->landing_known >> i);
     t = blend(less(t, zero), zero, blend(landing_known & less(latest, t), latest, t));
-    real z = height_at_time(load(&k->z[i]), vz, k->g->half_g, t), clearance = z - chord_height(&chord, to);
+    real z = height_at_time(load(&k->z[i]), vz, k->g->half_g, t),
+         clearance = z - blend(greater_equal(to, chord.x1), chord.z1, chord.z0 + chord.m * (to - chord.x0));
     unsigned other_lanes = ~(REGISTER << i);
     p->active &= other_lanes | p->landing_known | lane_bits(greater_equal(clearance, zero)) << i;
     unsigned hit = p->active & lane_bits(less(max(clearance, zero), load(&k->stem.height[i]))) << i;
@@ -170,7 +199,7 @@ FORCE_INLINE void hit_stem_lanes(struct lanes *k, struct passing *p, size_t i, u
     struct hit collision = {.energy = flying_energy(load(&k->mass[i]), load(&k->moment[i]), vx, vz, spin),
                             .cost = load(&p->cost[i])};
     real share = speed_kept(collision);
-    store_ints(&k->segment[i], blend_ints(h, load_ints(&p->segment[i]), load_ints(&k->segment[i])));
+    store_ints(&k->from[i], blend_ints(h, load_ints(&p->segment[i]), load_ints(&k->from[i])));
     store(&p->end[i], blend(h, load(&p->chords.x1[i]), load(&p->end[i])));
     store(&k->x[i], blend(h, load(&p->stem_x[i]), load(&k->x[i])));
     store(&k->z[i], blend(h, load(&p->z[i]), load(&k->z[i])));
@@ -203,23 +232,6 @@ FORCE_INLINE void pass_stem(struct kernel_params params, struct lanes *k, struct
     p->active &= ~p->stopped & forward & (~p->landing_known | before_landing);
 }
 
-/* After a hit, set a lane to the place of the hit, as if it had landed there. */
-FORCE_INLINE void land_at_stems(struct kernel_params params, struct lanes *k, unsigned hit)
-{
-    EACH_REGISTER(i) {
-        mask m = lane_mask(hit >> i);
-        ints segment = load_ints(&k->segment[i]);
-        real theta;
-        const struct chord chord = lookup_chord(params, k, segment, &theta);
-        store(&k->t[i], blend(m, splat(0), load(&k->t[i])));
-        store(&k->to_x[i], blend(m, load(&k->x[i]), load(&k->to_x[i])));
-        store(&k->to_z[i], blend(m, load(&k->z[i]), load(&k->to_z[i])));
-        store_ints(&k->to[i], blend_ints(m, segment, load_ints(&k->to[i])));
-        store_chord(&k->chords, i, blend_chord(m, chord, load_chord(&k->chords, i)));
-    }
-    k->off_slope &= ~hit;
-}
-
 /* Move all flights along +x that reach a stem before they land up to their landing, or until it must be known. Return the lanes
  * left to the scalar walk. */
 FORCE_INLINE unsigned pass_stems(struct kernel_params params, struct lanes *k)
@@ -237,12 +249,9 @@ FORCE_INLINE unsigned pass_stems(struct kernel_params params, struct lanes *k)
     if (!p.active)
         return 0;
     EACH_REGISTER(i) {
-        ints segment = load_ints(&k->segment[i]), to = load_ints(&k->to[i]);
-        real theta;
-        const struct chord chord = lookup_chord(params, k, segment, &theta);
+        ints segment = load_ints(&k->from[i]), to = load_ints(&k->segment[i]);
         store_ints(&p.segment[i], segment);
-        store_chord(&p.chords, i, chord);
-        store(&p.end[i], chord.x1);
+        store(&p.end[i], lookup_chord(params, k, segment, &p.chords, i).x1);
         store_ints(&p.last[i], blend_ints(greater_ints(to, n), n, to));
     }
     unsigned unknown = p.active & ~p.landing_known;
@@ -257,13 +266,13 @@ FORCE_INLINE unsigned pass_stems(struct kernel_params params, struct lanes *k)
         if (p.active)
             pass_stem(params, k, &p);
     } while (__builtin_popcount(p.active) > WAITING_MAX);
-    land_at_stems(params, k, p.hit);
+    k->off_slope &= ~p.hit;
     k->waiting = p.active;
     k->landing_unknown = p.active & ~p.landing_known;
     k->after_hit = (p.hit | unknown) & ~p.stopped & ~p.aborted & ~k->waiting;
     for (unsigned done = p.stopped | p.aborted; done; done &= done - 1) {
         size_t i = (size_t)__builtin_ctz(done);
-        end_lane(k, i, k->x[i], k->z[i], p.stopped >> i & 1 ? CEDUO_END_STOPPED_BY_STEMS : CEDUO_END_UNFINISHED);
+        end_lane(k, i, k->x[i], 0, p.stopped >> i & 1 ? CEDUO_END_STOPPED_BY_STEMS : CEDUO_END_UNFINISHED);
     }
     return scalar;
 }

@@ -3,31 +3,26 @@
 #ifndef CEDUO_ROLLING_H
 #define CEDUO_ROLLING_H
 
-#include <float.h>
-
 #include "flying.h"
-
-#ifndef STOP_ROUNDING
-#define STOP_ROUNDING (4 * DBL_EPSILON) /* of the coordinates: minimum distance to a stop */
-#endif
 
 enum roll_outcome { ROLLED, LIFTED_OFF, STANDS, ROLLED_OUT, STOPPED };
 
 /* ---- rolling ---- */
 
-/* True if a free flight to `l` is so short and flat that the rock rolls: less than R along the ground, and less than R above
- * the segment of its start, which it leaves with speed `off`. */
-FORCE_INLINE bool is_roll(const struct walker *w, const struct flight *f, double off, const struct landing *l)
+/* True if a free flight from a contact to `l` is so short and flat that the rock rolls: less than R along the ground, and less
+ * than R above the segment of its start. */
+FORCE_INLINE bool is_roll(const struct walker *w, const struct contact *contact, const struct flight *f,
+                          const struct landing *l)
 {
     double r = w->rock.radius;
-    if (l->off_slope || fabs(l->x - f->x) >= r)
+    if (l->off_slope || !(contact->off * contact->off < r * (2 * w->g->gravity * w->g->segments[contact->segment].c)))
         return false;
-    if (!(off * off < r * (2 * w->g->gravity * w->g->segments[f->segment].c)))
+    if (l->contact.segment != contact->segment && fabs(l->x - f->x) >= r)
         return false;
-    return ceduo_ground_between(w->g, f->segment, f->x, f->z, l->segment, l->x, l->z) < r;
+    return ground_between(w->g, contact->segment, contact->q, l->contact.segment, l->contact.q) < r;
 }
 
-/* A roll on segment flight.segment: direction, squared speed, remaining metres. */
+/* A roll on segment w->at.segment: direction, squared speed, remaining metres. */
 struct roll {
     int dir;
     double u2, remaining;
@@ -35,89 +30,52 @@ struct roll {
 
 static inline void set_rolling_speed(struct walker *w, const struct roll *r)
 {
-    const struct ground_segment *s = &w->g->segments[w->flight.segment];
-    double u = r->dir * sqrt(r->u2);
-    w->along = u;
-    w->flight.vx = u * s->c;
-    w->flight.vz = u * s->s;
-    w->spin = w->k > 0 ? u / w->rock.radius : 0;
+    w->contact.along = r->dir * sqrt(r->u2);
+    w->spin = w->k > 0 ? w->contact.along / w->rock.radius : 0;
 }
 
-/* Set the point of a roll after ds metres of its segment; `to_end`: exactly the end of the segment. */
-static inline void roll_point(const struct walker *w, int dir, double ds, bool to_end, double *x, double *z)
+/* Report the marks that a roll to x passes, over which u2 changes by `rate` per metre. */
+NOINLINE void pass_in_roll(struct walker *w, const struct roll *r, double rate, double x)
 {
-    const struct ground *g = w->g;
-    size_t j = w->flight.segment;
-    const struct ground_segment *s = &g->segments[j];
-    if (to_end) {
-        *x = g->vertices[dir > 0 ? j + 1 : j].x;
-        *z = g->vertices[dir > 0 ? j + 1 : j].z;
-    } else {
-        const struct chord chord = chord_at(g, j, s->m);
-        *x = w->flight.x + dir * s->c * ds;
-        *z = w->flight.z + dir * s->s * ds;
-        snap_to_chord(&chord, is_steep(s->m), is_steep(s->m), false, x, z);
-    }
-}
-
-/* Return the speed of a roll at (x, z); u2 changes by `rate` per metre. */
-static inline double speed_at(const struct walker *w, const struct roll *r, double rate, double x, double z)
-{
-    double u2 = r->u2 + rate * ground_length(&w->g->segments[w->flight.segment], w->flight.x, w->flight.z, x, z);
-    return u2 > 0 ? sqrt(u2) : 0;
-}
-
-/* Report the marks that a roll of ds metres to x passes. */
-NOINLINE void pass_in_roll(struct walker *w, const struct roll *r, double ds, double u2_end, double x)
-{
-    const struct ground_segment *s = &w->g->segments[w->flight.segment];
-    double rate = ds > 0 ? (u2_end - r->u2) / ds : 0; /* untaken: rounding */
+    size_t j = w->contact.segment;
+    const struct ground_segment *s = &w->g->segments[j];
     for (; w->next_x <= x; set_next_x(w)) {
-        double u = speed_at(w, r, rate, w->next_x, w->marks->items[w->next_mark].z);
+        double u2 = r->u2 + rate * fabs(ground_along(w->g, j, w->next_x) - w->contact.q), u = u2 > 0 ? sqrt(u2) : 0;
         pass_mark(w, u * s->c, u * s->s, w->k > 0 ? u / w->rock.radius : 0, 0);
     }
 }
 
-NOINLINE void report_roll(struct walker *w, const struct roll *r, double u2_end, double x1, double z1)
+NOINLINE void report_roll(struct walker *w, const struct roll *r, double u2_end, struct ground_vertex to)
 {
-    const struct ground_segment *s = &w->g->segments[w->flight.segment];
+    const struct ground_segment *s = &w->g->segments[w->contact.segment];
+    const struct ground_vertex from = ground_place(w->g, w->contact.segment, w->contact.q);
     double u = r->dir * sqrt(r->u2), u1 = r->dir * sqrt(u2_end);
-    const struct ceduo_trajectory_segment p = {true, w->flight.x, w->flight.z, u * s->c,  u * s->s,
-                                               x1,   z1,          u1 * s->c,   u1 * s->s, w->k > 0 ? u / w->rock.radius : 0,
+    const struct ceduo_trajectory_segment p = {true, from.x,     from.z,    u * s->c,  u * s->s,
+                                               to.x, to.z,       u1 * s->c, u1 * s->s, w->k > 0 ? u / w->rock.radius : 0,
                                                0,    w->contacts};
     w->callbacks->segment(w->callbacks->context, &p);
 }
 
-/* Roll along the segment by ds to a point, and report passed marks. */
-static void roll_to(struct walker *w, struct roll *r, double ds, double u2_end, double x, double z)
+/* Roll by ds along the segment to q, and report passed marks. */
+static void roll_to(struct walker *w, struct roll *r, double ds, double u2_end, double q)
 {
-    if (r->dir > 0 && w->next_x <= x)
-        pass_in_roll(w, r, ds, u2_end, x);
-    if (w->callbacks && w->callbacks->segment)
-        report_roll(w, r, u2_end, x, z);
+    const struct ground_vertex to = ground_place(w->g, w->contact.segment, q);
+    if (r->dir > 0 && w->next_x <= to.x)
+        pass_in_roll(w, r, ds > 0 ? (u2_end - r->u2) / ds : 0, to.x); /* untaken: rounding */
+    if (ds > 0 && w->callbacks && w->callbacks->segment)
+        report_roll(w, r, u2_end, to);
     r->u2 = u2_end;
-    w->flight.x = x;
-    w->flight.z = z;
+    w->contact.q = q;
     set_rolling_speed(w, r);
-}
-
-/* As roll_to(), with a computed point; `to_end`: exactly the end of the segment. */
-static void roll_piece(struct walker *w, struct roll *r, double ds, double u2_end, bool to_end)
-{
-    double x, z;
-    roll_point(w, r->dir, ds, to_end, &x, &z);
-    roll_to(w, r, ds, u2_end, x, z);
 }
 
 enum stem_outcome { NO_STEM, PASSED_STEM, STOPPED_AT_STEM };
 
-/* Roll to the next stem, if it stands within the next ds metres, over which u2 changes by `rate` per metre. */
-static __attribute__((noinline)) enum stem_outcome roll_to_stem(struct walker *w, struct roll *r, double ds, double rate)
+/* Roll to the next stem, if it stands before q, over which u2 changes by `rate` per metre. */
+static __attribute__((noinline)) enum stem_outcome roll_to_stem(struct walker *w, struct roll *r, double q, double rate)
 {
-    const struct ground *g = w->g;
-    size_t j = w->flight.segment;
-    double x_end, z_end;
-    roll_point(w, r->dir, ds, false, &x_end, &z_end);
+    size_t j = w->contact.segment;
+    double x_end = ground_place(w->g, j, q).x;
     for (;;) {
         double x = r->dir > 0 ? w->stem_ahead : w->stem_behind;
         if (r->dir > 0 ? !(x <= x_end) : !(x >= x_end))
@@ -126,9 +84,8 @@ static __attribute__((noinline)) enum stem_outcome roll_to_stem(struct walker *w
         bool taken = consume_stem(w, r->dir > 0 ? 0 : 1, &stem);
         if (!taken && !w->aborted)
             continue;
-        double z = ground_height(g, j, x), distance = ground_length(&g->segments[j], w->flight.x, w->flight.z, x, z);
-        double u2 = r->u2 + rate * distance;
-        roll_to(w, r, distance, u2 > 0 ? u2 : 0, x, z); /* untaken: rounding */
+        double to = ground_along(w->g, j, x), distance = fabs(to - w->contact.q), u2 = r->u2 + rate * distance;
+        roll_to(w, r, distance, u2 > 0 ? u2 : 0, to); /* untaken: rounding */
         r->remaining -= distance;
         if (!taken)
             return STOPPED_AT_STEM;
@@ -143,24 +100,25 @@ static __attribute__((noinline)) enum stem_outcome roll_to_stem(struct walker *w
 static enum roll_outcome roll_over_vertex(struct walker *w, struct roll *r, struct landing *l)
 {
     const struct ground *g = w->g;
-    size_t j = w->flight.segment;
+    size_t j = w->contact.segment;
     if (r->dir > 0 ? j + 1 == g->n : j == 0)
         return ROLLED_OUT;
     size_t next = r->dir > 0 ? j + 1 : j - 1;
     const struct ground_segment *a = &g->segments[j], *b = &g->segments[next];
     double turn = r->dir * (a->c * b->s - a->s * b->c); /* > 0: the ground turns up, a concave vertex */
-    if (turn > 0) {
-        double cosine = a->c * b->c + a->s * b->s;
+    double cosine = a->c * b->c + a->s * b->s;
+    if (turn > 0)
         r->u2 = cosine > 0 ? r->u2 * (cosine * cosine) : 0;
-    }
-    w->flight.segment = next;
+    w->contact.segment = next;
+    w->contact.q = r->dir > 0 ? 0 : b->length;
     if (turn < 0) {
         double u = r->dir * sqrt(r->u2);
-        struct flight flight = {
-            .x = w->flight.x, .z = w->flight.z, .vx = u * a->c, .vz = u * a->s, .segment = next, .on_ground = true};
-        *l = next_landing(g, &flight);
-        if (!is_roll(w, &flight, flight.vz * b->c - flight.vx * b->s, l)) {
-            w->flight = flight;
+        const struct velocity v = velocity_on(b->c, b->s, u * a->c, u * a->s);
+        const struct contact contact = {next, w->contact.q, v.along, v.off};
+        const struct flight flight = begin_flight(g, &contact);
+        *l = next_contact(g, &contact, &flight, g->top > 0);
+        if (!is_roll(w, &contact, &flight, l)) {
+            w->contact = contact;
             return LIFTED_OFF;
         }
     }
@@ -171,24 +129,22 @@ static enum roll_outcome roll_over_vertex(struct walker *w, struct roll *r, stru
 NOINLINE enum roll_outcome roll_on(struct walker *w, double u, struct landing *l)
 {
     const struct ground *g = w->g;
-    int downhill = g->segments[w->flight.segment].m > 0 ? -1 : 1;
+    int downhill = g->segments[w->contact.segment].s > 0 ? -1 : 1;
     struct roll r = {.dir = u > 0 ? 1 : u < 0 ? -1 : downhill, .u2 = u * u, .remaining = w->rock.radius};
     for (;;) {
-        size_t j = w->flight.segment, v = r.dir > 0 ? j + 1 : j;
-        const struct ground_segment *s = &g->segments[j];
-        double to_end = ground_length(s, w->flight.x, w->flight.z, g->vertices[v].x, g->vertices[v].z);
-        double ds = to_end < r.remaining ? to_end : r.remaining;
+        const struct ground_segment *s = &g->segments[w->contact.segment];
+        double to_end = r.dir > 0 ? s->length - w->contact.q : w->contact.q, ds = to_end < r.remaining ? to_end : r.remaining;
         double rate = 2 * g->gravity * (-r.dir * s->s - s->friction * s->c) / (1 + w->k);
         double u2 = r.u2 + rate * ds;
         bool stands = ds > 0 && rate <= 0 && !(u2 > 0);
         if (stands) {
             double stop = rate < 0 ? -r.u2 / rate : 0;
-            if (stop <= STOP_ROUNDING * (fabs(w->flight.x) + fabs(w->flight.z)))
-                stop = 0; /* stop here, because rounding must not lift the rock */
             ds = stop < ds ? stop : ds;
+            u2 = 0;
         }
+        double q = ds == to_end ? (r.dir > 0 ? s->length : 0) : w->contact.q + r.dir * ds;
         if (w->stems && ds > 0) {
-            enum stem_outcome outcome = roll_to_stem(w, &r, ds, rate);
+            enum stem_outcome outcome = roll_to_stem(w, &r, q, rate);
             if (outcome == STOPPED_AT_STEM)
                 return STOPPED;
             if (outcome == PASSED_STEM && r.remaining > 0) /* untaken: rounding */
@@ -196,11 +152,9 @@ NOINLINE enum roll_outcome roll_on(struct walker *w, double u, struct landing *l
             if (outcome == PASSED_STEM) /* untaken: rounding */
                 return ROLLED;
         }
-        if (stands) {
-            roll_piece(w, &r, ds, 0, false);
+        roll_to(w, &r, ds, u2, q);
+        if (stands)
             return STANDS;
-        }
-        roll_piece(w, &r, ds, u2, ds == to_end);
         r.remaining -= ds;
         if (!(r.remaining > 0))
             return ROLLED;
@@ -221,7 +175,7 @@ static bool rises_to(const struct ground *g, size_t j, int dir, double z)
         if (dir > 0 ? j + 1 == g->n : j == 0)
             return false;
         j = dir > 0 ? j + 1 : j - 1;
-        if (dir * g->segments[j].m < 0)
+        if (dir * g->segments[j].s < 0)
             return false;
     }
 }
@@ -234,40 +188,40 @@ static bool past_level(const struct ground *g, size_t *j, int dir, double *level
         if (dir > 0 ? *j + 1 == g->n : *j == 0)
             return false;
         *j = dir > 0 ? *j + 1 : *j - 1;
-        if (g->segments[*j].m != 0)
+        if (g->segments[*j].s != 0)
             return true;
-        *level += g->distance[*j + 1] - g->distance[*j];
+        *level += g->segments[*j].length;
     }
+}
+
+FORCE_INLINE bool exceeds_friction(const struct ground *g, size_t j)
+{
+    return fabs(ground_slope(g, j)) > g->segments[j].friction;
 }
 
 /* True if the bottom of a pit lies less than R downhill. The bottom is a vertex, or a level stretch shorter than R, between two
  * sides steeper than their friction. The far side must rise to the height of the rock. */
 static bool in_pit(const struct ground *g, const struct walker *w)
 {
-    size_t j = w->flight.segment;
-    int dir = g->segments[j].m < 0 ? 1 : -1;
-    double r = w->rock.radius, x = w->flight.x, z = w->flight.z, distance = 0;
-    for (;;) { /* segment j falls */
-        const struct ground_segment *side = &g->segments[j];
-        size_t v = dir > 0 ? j + 1 : j;
+    size_t j = w->contact.segment;
+    int dir = g->segments[j].s < 0 ? 1 : -1;
+    double r = w->rock.radius, distance = dir > 0 ? g->segments[j].length - w->contact.q : w->contact.q;
+    for (;; distance += g->segments[j].length) { /* segment j falls */
+        size_t side = j;
         double level;
-        distance += ground_length(side, x, z, g->vertices[v].x, g->vertices[v].z);
         if (!(distance < r) || !past_level(g, &j, dir, &level) || !(level < r))
             return false;
-        const struct ground_segment *next = &g->segments[j];
-        if (dir * next->m > 0)
-            return fabs(side->m) > side->friction && fabs(next->m) > next->friction && rises_to(g, j, dir, w->flight.z);
+        if (dir * g->segments[j].s > 0)
+            return exceeds_friction(g, side) && exceeds_friction(g, j) &&
+                   rises_to(g, j, dir, ground_place(g, w->contact.segment, w->contact.q).z);
         if (level > 0) /* a terrace, no pit */
             return false;
-        x = g->vertices[v].x;
-        z = g->vertices[v].z;
     }
 }
 
 static bool rests(const struct walker *w)
 {
-    const struct ground_segment *s = &w->g->segments[w->flight.segment];
-    return !(fabs(s->m) > s->friction) || in_pit(w->g, w);
+    return !exceeds_friction(w->g, w->contact.segment) || in_pit(w->g, w);
 }
 
 #endif

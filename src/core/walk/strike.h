@@ -4,6 +4,7 @@
 #define CEDUO_STRIKE_H
 
 #include "ceduo/scene.h"
+#include "flight.h"
 #include "law_arm.h"
 #include "law_crsp.h"
 #include "law_lumped.h"
@@ -13,16 +14,6 @@ static const struct contact_law *const contact_laws[] = {
     CEDUO_LAWS(X)
 #undef X
 };
-
-/* Velocity in the axes of a segment, of unit tangent (c, s). */
-struct velocity {
-    real along, off;
-};
-
-FORCE_INLINE struct velocity velocity_on(real c, real s, real vx, real vz)
-{
-    return (struct velocity){.along = vx * c + vz * s, .off = vz * c - vx * s};
-}
 
 /* Return the angle of a facet by its draw u. Facets `against` the rock have one sign only. */
 FORCE_INLINE real facet_angle(bool against, real largest, real u)
@@ -38,7 +29,7 @@ FORCE_INLINE void facet_struck(bool against, struct velocity v, real *sine, real
     if (against)
         *sine = blend(greater_equal(v.along, zero), *sine, -*sine);
     mask leaves = less(zero, v.off * *cosine - v.along * *sine);
-    *sine = blend(leaves, zero, *sine);
+    *sine = zero_if(leaves, *sine);
     *cosine = blend(leaves, splat(1), *cosine);
 }
 
@@ -64,13 +55,13 @@ FORCE_INLINE struct velocity strike(const struct contact_law *law, const struct 
                                     struct velocity v, real *spin)
 {
     real zero = splat(0), inward = v.along * sine - v.off * cosine;
-    struct impact in = {.vn = blend(less(zero, inward), inward, zero), .vt = v.along * cosine + v.off * sine, .spin = *spin};
+    struct impact in = {.vn = max(inward, zero), .vt = v.along * cosine + v.off * sine, .spin = *spin};
     struct impact out = law->struck(in, point);
     if (point->bound && !law->sections) /* a law with sections has its own friction */
         out = bound_by_friction(in, out, point, law->spins);
     real off = out.vt * sine + out.vn * cosine;
     *spin = out.spin;
-    return (struct velocity){.along = out.vt * cosine - out.vn * sine, .off = blend(less(zero, off), off, zero)};
+    return (struct velocity){.along = out.vt * cosine - out.vn * sine, .off = max(off, zero)};
 }
 
 /* ---- stems ---- */

@@ -69,8 +69,8 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared_sce
                                 .z = ground_height(g, segment, x) + height,
                                 .vx = draw_release(w, release->vx, 2),
                                 .vz = draw_release(w, release->vz, 3),
-                                .segment = segment,
-                                .on_ground = !(height > 0)};
+                                .segment = segment};
+    w->on_ground = !(height > 0);
     w->contacts = 0;
     w->pause = next_pause(w);
     w->stems_pause = PAUSE;
@@ -104,6 +104,7 @@ void ceduo_walk_release_identical(struct walker *w, const struct walker *first, 
     w->release = first->release;
     w->spin = first->spin;
     w->flight = first->flight;
+    w->on_ground = first->on_ground;
     w->contacts = 0;
     w->pause = first->pause;
     w->cancelled = false;
@@ -147,12 +148,10 @@ FORCE_INLINE bool come_down(struct walker *w, struct flight *flight, struct land
 bool ceduo_walk_roll(struct walker *w, struct rock_state *c, const struct rolling *before, enum ceduo_end *end)
 {
     bool stops = false;
-    w->flight = c->flight;
-    if (before) {
-        c->along = before->along;
+    w->contact = c->contact;
+    if (before)
         w->spin = before->spin;
-    }
-    double u = rolling_speed(c->along, w->k, w->spin, w->rock.radius);
+    double u = rolling_speed(before ? before->along : c->contact.along, w->k, w->spin, w->rock.radius);
     enum roll_outcome outcome = u == 0 && rests(w) ? STANDS : roll_on(w, u, &c->l);
     while (outcome == STANDS && !rests(w) && !(stops = w->contacts >= w->pause && must_stop(w))) {
         w->contacts++;
@@ -162,34 +161,32 @@ bool ceduo_walk_roll(struct walker *w, struct rock_state *c, const struct rollin
            : outcome == ROLLED_OUT             ? CEDUO_END_LEFT_SLOPE
            : outcome == STOPPED && !w->aborted ? CEDUO_END_STOPPED_BY_STEMS
                                                : CEDUO_END_UNFINISHED;
-    c->flight = w->flight;
-    c->along = w->along;
-    c->off = 0;
     c->flies = outcome == LIFTED_OFF;
     c->rolled = outcome == ROLLED;
-    return outcome == LIFTED_OFF || outcome == ROLLED;
-}
-
-FORCE_INLINE void set_velocity(const struct walker *w, struct rock_state *c)
-{
-    struct velocity v = velocity_at(w, &c->flight);
-    c->along = v.along;
-    c->off = v.off;
+    if (!c->flies)
+        w->contact.off = 0;
+    c->contact = w->contact;
+    w->flight = c->flight = begin_flight(w->g, &w->contact);
+    return c->flies || c->rolled;
 }
 
 FORCE_INLINE void start(const struct walker *w, struct rock_state *c)
 {
-    c->flight = w->flight;
-    set_velocity(w, c);
-    c->flies = !c->flight.on_ground || c->off > 0;
+    const struct flight *f = &w->flight;
+    const struct ground_segment *s = &w->g->segments[f->segment];
+    double off = (f->vz - ground_slope(w->g, f->segment) * f->vx) * s->c; /* exactly 0 if parallel to the ground */
+    c->contact = (struct contact){f->segment, ground_along(w->g, f->segment, f->x), f->vx * s->c + f->vz * s->s, off};
+    c->flies = !w->on_ground || off > 0;
+    bool from_ground = w->on_ground && f->vx != 0; /* a vertical flight stays at its x */
+    c->flight = from_ground ? begin_flight(w->g, &c->contact) : *f;
     if (c->flies)
-        c->l = next_landing(w->g, &c->flight);
+        c->l = from_ground ? next_contact(w->g, &c->contact, &c->flight, w->g->top > 0) : next_landing(w->g, f);
 }
 
 FORCE_INLINE enum ceduo_end walk_over(struct walker *w, struct rock_state c, const struct contact_law *law, bool chunks)
 {
-    struct flight flight = c.flight; /* w->flight is updated before calls */
-    struct velocity v = {c.along, c.off};
+    struct flight flight = c.flight; /* w->flight is updated before the end */
+    struct contact contact = c.contact;
     struct facet facet = {.angle = 0, .sine = 0, .cosine = 1};
     struct landing l = c.l;
     bool flies = c.flies, rolled = c.rolled;
@@ -198,28 +195,27 @@ FORCE_INLINE enum ceduo_end walk_over(struct walker *w, struct rock_state c, con
         if (flies) {
             if (!come_down(w, &flight, &l, true, &end))
                 return end;
-            v = velocity_at(w, &flight);
+            contact = l.contact;
             rolled = false;
         }
         if (w->contacts >= w->pause && must_stop(w)) {
-            w->flight = flight;
+            w->flight = begin_flight(w->g, &contact);
             return CEDUO_END_UNFINISHED;
         }
-        const struct rolling before = {.along = v.along, .spin = w->spin};
-        strike_ground(w, &flight, &v, &facet, law);
+        const struct rolling before = {.along = contact.along, .spin = w->spin};
+        strike_ground(w, &contact, &facet, law);
         w->contacts++;
-        turn_facet(w, flight.segment, &facet);
-        flight.on_ground = true;
-        l = next_landing_over(w->g, &flight, chunks);
-        flies = !is_roll(w, &flight, v.off, &l);
+        turn_facet(w, contact.segment, &facet);
+        flight = begin_flight(w->g, &contact);
+        l = next_contact(w->g, &contact, &flight, chunks);
+        flies = !is_roll(w, &contact, &flight, &l);
         if (flies)
             continue;
-        c.flight = flight;
-        c.along = v.along;
+        c.contact = contact;
         if (!ceduo_walk_roll(w, &c, rolled && w->friction_bound ? &before : NULL, &end))
             return end;
         flight = c.flight;
-        v = (struct velocity){c.along, c.off};
+        contact = c.contact;
         l = c.l;
         flies = c.flies;
         rolled = c.rolled;
@@ -254,7 +250,7 @@ enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
 
 /* ---- steps of a trajectory ---- */
 
-bool ceduo_walk_hit_stem(struct walker *w, bool hit, struct flight flight, double t)
+bool ceduo_walk_hit_stem(struct walker *w, bool hit, const struct flight *flight, double t)
 {
     const struct stem stem = *ceduo_stems_next(&w->stems->side[0]);
     advance_stem(w, 0);
@@ -270,11 +266,11 @@ bool ceduo_walk_land(struct walker *w, struct rock_state *c, enum ceduo_end *end
     if (c->flies) {
         if (!come_down(w, &c->flight, &c->l, !c->landing_unknown, end))
             return false;
-        set_velocity(w, c);
+        c->contact = c->l.contact;
         c->flies = c->landing_unknown = false;
     }
     if (w->contacts >= w->pause && must_stop(w)) {
-        w->flight = c->flight;
+        w->flight = begin_flight(w->g, &c->contact);
         *end = CEDUO_END_UNFINISHED;
         return false;
     }
@@ -287,11 +283,11 @@ bool ceduo_walk_start(struct walker *w, struct rock_state *c, enum ceduo_end *en
     return ceduo_walk_land(w, c, end);
 }
 
-bool ceduo_walk_rolls(const struct walker *w, struct rock_state *c, bool landing_known)
+bool ceduo_walk_rolls(const struct walker *w, struct rock_state *c)
 {
-    if (!landing_known)
-        c->l = next_landing(w->g, &c->flight);
-    c->flies = !is_roll(w, &c->flight, c->off, &c->l);
+    c->flight = begin_flight(w->g, &c->contact);
+    c->l = next_contact(w->g, &c->contact, &c->flight, w->g->top > 0);
+    c->flies = !is_roll(w, &c->contact, &c->flight, &c->l);
     return !c->flies;
 }
 

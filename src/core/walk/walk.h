@@ -44,8 +44,9 @@ struct walker {
     struct section section;
     double rn_u, rt_u;           /* quantiles of rn and rt for this rock */
     double theta[ROUGHNESS_MAX]; /* largest facet angle of this rock on each roughness of the ground */
-    struct flight flight;        /* current position and velocity */
-    double along;                /* m/s along the segment, after a roll */
+    struct flight flight;        /* at the release, and at the end */
+    bool on_ground;              /* released on the ground */
+    struct contact contact;      /* during a roll */
     double spin;
     uint64_t contacts;
     uint64_t pause;       /* contact count at which limits and cancellation are checked next */
@@ -71,12 +72,12 @@ struct walker {
 
 /* State of a rock between two contacts: in flight to `l`, or on the ground at its next contact. */
 struct rock_state {
-    struct flight flight;
+    struct contact contact; /* on the ground */
     bool flies;
     bool landing_unknown; /* in flight after a stem, `l` is not set */
-    bool rolled;          /* on the ground, reached by rolling with speed `along` */
-    double along, off;    /* velocity, on the ground */
-    struct landing l;     /* in flight */
+    bool rolled;          /* on the ground, reached by rolling */
+    struct flight flight; /* in flight */
+    struct landing l;     /* likewise */
 };
 
 /* ---- next mark ---- */
@@ -112,17 +113,17 @@ enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law);
 bool ceduo_walk_start(struct walker *w, struct rock_state *c, enum ceduo_end *end);
 
 /* Report the marks that a flight passes up to its landing, at x after t. */
-void ceduo_walk_pass_marks(struct walker *w, struct flight flight, double x, double t);
+void ceduo_walk_pass_marks(struct walker *w, const struct flight *flight, double x, double t);
 
 /* Consume the next stem ahead, which the flight reaches after t. False if the trajectory is aborted. Then, or if the stem is
  * hit, the marks before it are passed. */
-bool ceduo_walk_hit_stem(struct walker *w, bool hit, struct flight flight, double t);
+bool ceduo_walk_hit_stem(struct walker *w, bool hit, const struct flight *flight, double t);
 
 /* Move to the next contact. */
 bool ceduo_walk_land(struct walker *w, struct rock_state *c, enum ceduo_end *end);
 
-/* True if a rock rolls after a contact; otherwise it flies to c->l, computed here unless `landing_known`. */
-bool ceduo_walk_rolls(const struct walker *w, struct rock_state *c, bool landing_known);
+/* True if a rock rolls after a contact; otherwise it flies, and the flight is set. */
+bool ceduo_walk_rolls(const struct walker *w, struct rock_state *c);
 
 /* Roll from such a contact, into flight or to the next contact. `before`: motion of a rock that rolled to the contact, which
  * continues; NULL: the contact was an impact. */
