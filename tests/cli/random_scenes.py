@@ -405,7 +405,7 @@ class Maker:
             slope["reversed"] = True
             self.case.used.add("slope.reversed")
             self.case.xs, self.case.zs = [xs[0] + xs[-1] - x for x in reversed(xs)], zs[::-1]
-        if self.chance(0.15):
+        if self.chance(0.15) and xs[-1] - xs[0] > 0.11:  # a table needs a length
             layers = ("crown", "ground") if self.chance(0.3) else ()
             slope["csv"] = self.csv(xs, zs, layers)
             self.case.used.add("slope.csv")

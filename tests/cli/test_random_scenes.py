@@ -486,7 +486,7 @@ def check_summary(case, result, stands, summary, what):
         else:
             expect_close(summary["meet_nothing_probability"], math.exp(-nothing), f"{what}: meet_nothing", absolute=1e-6)
     expect(0 <= summary["meet_nothing_probability"] <= 1, f"{what}: {summary}")
-    expect(-slack <= summary["longest_gap_m"] <= last - case.start + slack, f"{what}: longest gap {summary}")
+    expect(-slack <= summary["longest_gap_m"] <= last - case.start + slack + case.moved, f"{what}: longest gap {summary}")
     if summary["contacts"] > 0:
         expect_close(summary["adc_m"], summary["length_m"] / summary["contacts"], f"{what}: adc_m of the summary")
         if summary["dissipated_kJ"] is not None:
