@@ -19,6 +19,8 @@ double ceduo_slope_height(const struct ceduo_slope *slope, double x)
     const double *px = slope->x, *pz = slope->z;
     if (x >= px[j + 1])
         return pz[j + 1];
+    if (x <= px[j]) /* exact even if the segment is too short for its slope */
+        return pz[j];
     return pz[j] + (pz[j + 1] - pz[j]) / (px[j + 1] - px[j]) * (x - px[j]);
 }
 

@@ -461,12 +461,13 @@ static const struct ceduo_figure fence_years[] = {
      .table = fence_choice, .null = NO_HEIGHT},
     END};
 
+#define NO_WINDOW "no option grows or is cut and no years are given, or contact_model is index"
 static const struct ceduo_figure fence[] = {
     {"energy_kJ", "kJ", "as in the scene", .from = get_control, MEMBER(control, fence.energy), .scale = J_TO_KJ},
     {"height_m", "m", "as in the scene", .from = get_control, MEMBER(control, fence.height)},
     {"life_y", "y", "as in the scene, or 50", .from = get_control, .value = fence_life},
     {"window", "", "the years ahead, of this option", .from = get_fence_years, .table = fence_years,
-     .null = "no option grows or is cut, contact_model is index, or in a year of --years"},
+     .null = NO_WINDOW ", or in a year of --years"},
     END};
 
 #define NO_LOAD "fewer rocks arrive than the percentile counts"
@@ -643,7 +644,7 @@ static const struct ceduo_figure lights[] = {
     {"free_run_8cm", "", "free_run, counting likewise", LIGHT(thick.free_run)},
     END};
 
-#define ANSWERS "yes, no, not-decided (the 95 % interval holds the limit), nothing (hardly a rock arrives even without forest)"
+#define ANSWERS "yes, no, not-decided (the 95 % interval holds the limit), nothing (cannot be judged: why has the reason)"
 static const struct ceduo_figure verdict_of_other[] = {
     {"answer", "", "the same by that law, but depends where one law says yes and the other no",
      .value = judgement_by_alternative_law, .null = NO_LIMIT},
@@ -813,7 +814,7 @@ static const struct ceduo_figure option[] = {
     {.table = forest_rows},
     {.table = end_rows},
     {"window", "", "the years by which options are judged and compared, at the last control", .from = get_window,
-     .table = window, .null = "no option grows or is cut, or contact_model is index"},
+     .table = window, .null = NO_WINDOW},
     {"years", "", "an object for each year", .table = year, .enter = enter_year, .null = NO_YEARS},
     {"rotation", "", "the years together, at the last control", .from = get_rotation, .table = rotation, .null = NO_YEARS},
     {"yield", "", "stem wood that the option yields", .from = enter_yield, .table = yield, .null = NO_GROWTH},
@@ -994,7 +995,7 @@ static const struct ceduo_figure share_range[] = {
     END};
 static const struct ceduo_figure end_columns[] = {
     {"worst", "", "", .from = get_summary, .table = worst_year_columns,
-     .null = "no option grows or is cut, contact_model is index, or of a year"},
+     .null = NO_WINDOW ", the forest cannot be judged, or of a year"},
     {"uncertainty", "", "", .from = get_share_range, .table = share_range,
      .null = "--columns does not name it, nothing is uncertain, the control is not the last, or of a year"},
     VERSION,

@@ -186,7 +186,7 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
           "without forest; one that the forest stops counts as 0."));
     CEDUO_PAGE_TABLE_OF(page, columns);
     if (!isnan(d.factors.energy))
-        ceduo_text_format(&ceduo_page_head(page)->text, _("class at factor %s"), LOCALIZED(d.factors.energy));
+        ceduo_text_format(&ceduo_page_head(page)->text, _("class at factor %.4g"), d.factors.energy);
     for (enum ceduo_design_kind i = 0; i < CEDUO_DESIGN_KINDS; i++) {
         const struct ceduo_fence_design *v = &d.values[i];
         if (isnan(v->energy))

@@ -39,7 +39,7 @@ const char *ceduo_words_sig(double value, int digits, char buffer[CEDUO_NUMBER_S
         snprintf(buffer, CEDUO_NUMBER_SIZE, "-");
     else if (isinf(value))
         snprintf(buffer, CEDUO_NUMBER_SIZE, "%s", P_("number", "none"));
-    else if (size > 0 && (decimals > 6 || size >= 1e9))
+    else if (size > 0 && (decimals > 6 || size >= 1e8))
         snprintf(buffer, CEDUO_NUMBER_SIZE, "%.*g", digits, value);
     else
         snprintf(buffer, CEDUO_NUMBER_SIZE, "%.*f", decimals > 0 ? decimals : 0, size > 0 ? value : 0);

@@ -363,6 +363,7 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
     const struct ceduo_outcome *o = &s->outcome;
     LOCAL_TEXT(verdict);
     LOCAL_TEXT(reason);
+    LOCAL_TEXT(name);
     LOCAL_TEXT(place);
     if (is_due(s)) /* "✔ YES today; ✘ NO after the cut" */
         ceduo_text_format(&verdict, _("%s today; %s after the cut"), JUDGEMENT_MARK(o->today), JUDGEMENT_MARK(o->answer));
@@ -374,7 +375,8 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
         ceduo_text_append(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
     if (s->report->result->scene->controls_count > 1) { /* name the control */
-        ceduo_words_place(&place, s->place);
+        ceduo_words_place(&name, s->place);
+        ceduo_text_append_escaped(&place, ceduo_text_string(&name)); /* as wide as printed */
         ceduo_text_append(&place, ": ");
         if (ceduo_utf8_width(place.bytes) + taken <= width) {
             ceduo_text_append(text, place.bytes);

@@ -288,8 +288,9 @@ def belt(from_m, to_m, **changes):
 
 
 def option_today(option):
-    """Return an option of JSON without its years, their window and the answer over them."""
-    controls = [{**c, "verdict": {"today": c["verdict"]["today"]}} for c in option["controls"]]
+    """Return an option of JSON without its years, their window and all that depends on it: answers, fences, the worst year."""
+    controls = [{**c, "verdict": {"today": c["verdict"]["today"]}, "fence": c["fence"] and {**c["fence"], "window": None},
+                 "design": c["design"] and {**c["design"], "worst": None}} for c in option["controls"]]
     return {**option, "controls": controls, "years": None, "rotation": None, "window": None}
 
 

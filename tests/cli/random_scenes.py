@@ -151,6 +151,7 @@ class Case:
         self.words = set()  # (path, word)
         self.ends = set()   # (path, end) of values at an end
         self.tolerance = 0  # m: of the profile
+        self.moved = 0      # m: by which points of a table may be moved, because they are less than 1 mm apart
         self.belts = []     # per option: [(from, to, whole stand)]
 
     def text(self):
@@ -366,14 +367,17 @@ class Maker:
 
     def materials(self, xs):
         """Draw grounds from the first vertex to the last."""
-        p = self.table.tree["slope"]["materials[]"]["material"]
+        node = self.table.tree["slope"]["materials[]"]
         inner = [x for x in xs[1:-1] if self.chance(0.4)]
         inner += [self.rng.uniform(xs[0], xs[-1]) for _ in range(self.rng.choice([0, 0, 1, 3]))]
         cuts = sorted({x for x in inner if xs[0] < x < xs[-1]})
         rows = []
         for a, b in zip([xs[0], *cuts], [*cuts, xs[-1]]):
             row = {"from_m": a, "to_m": b}
-            self.value(p, row)
+            self.value(node["material"], row)
+            if self.chance(0.2):  # values of its own
+                for key in self.rng.sample(["rn", "rt", "roughness_m", "friction", "mu"], 2):
+                    self.value(node[key], row)
             rows.append(row)
         self.case.used |= {"slope.materials[].from_m", "slope.materials[].to_m"}
         return rows
@@ -384,6 +388,7 @@ class Maker:
         head = self.rng.choice(["distance{}elevation", "Distance{}Elevation", "x{}z"]).format(sign)
         end = self.rng.choice(["\n", "\r\n"])
         name = f"s{self.index}.csv"
+        self.case.moved = 1e-3 * len(xs)
         rows = [f"{x!r}{sign}{z!r}" for x, z in zip(xs, zs)]
         if layers:
             others = [f"{x!r}{sign}{z + 1!r}" for x, z in zip(xs, zs)]
@@ -400,7 +405,7 @@ class Maker:
             slope["reversed"] = True
             self.case.used.add("slope.reversed")
             self.case.xs, self.case.zs = [xs[0] + xs[-1] - x for x in reversed(xs)], zs[::-1]
-        if self.chance(0.15):
+        if self.chance(0.15) and xs[-1] - xs[0] > 0.11:  # a table needs a length
             layers = ("crown", "ground") if self.chance(0.3) else ()
             slope["csv"] = self.csv(xs, zs, layers)
             self.case.used.add("slope.csv")
@@ -429,8 +434,20 @@ class Maker:
 
     # ---- release and controls ----
 
+    def releases(self):
+        """Draw several releases; keeps their mean and their maximum place."""
+        xs, case = self.case.xs, self.case
+        shares = self.rng.choice([[1], [0.25, 0.75], [0.5, 0.5], [0.2, 0.3, 0.5]])
+        places = [clamp(xs[0] + (xs[-1] - xs[0]) * self.rng.random() * 0.3, xs[0], math.nextafter(xs[-1], -math.inf)) for _ in shares]
+        case.start, case.last_start = sum(map(math.prod, zip(shares, places))), max(places)
+        case.used |= {"release[].x_m", "release[].share"}
+        node = self.table.tree["release[]"]
+        return [self.fill(node, {"x_m": x, "share": share}) for x, share in zip(places, shares)]
+
     def release(self):
         """Draw the release; keeps its maximum place."""
+        if self.chance(0.08):
+            return self.releases()
         release = self.fill(self.table.tree["release"], {}, ("x_m",))
         xs, case = self.case.xs, self.case
         case.start = case.last_start = xs[0]
@@ -610,9 +627,11 @@ class Maker:
         rows = {"lo": {"path": "simulation.gravity_m_s2", "lo": 9.7, "hi": self.rng.uniform(9.8, 10)},
                 "mean": {"path": "release.height_m", "mean": 10, "sd": self.rng.uniform(0.1, 3)},
                 "one_of": {"path": "simulation.law", "one_of": ["lumped", "crsp"]}}
+        if isinstance(self.case.scene.get("release"), list):
+            del rows["mean"]
         if self.chance(0.2):
             return "none"
-        keys = self.rng.sample(list(rows), self.rng.randint(1, 3))
+        keys = self.rng.sample(list(rows), self.rng.randint(1, len(rows)))
         self.case.used |= {f"uncertainty[].{key}" for one in keys for key in rows[one]}
         return [rows[key] for key in keys]
 

@@ -98,6 +98,8 @@ def test_design():
         expect_equal(values["class_gamma_e"], next(i for i, c in enumerate(CLASSES) if c >= 1.2 * values["energy_kJ"]))
     for kind in ("arrivals", "system"):
         expect(design["worst"][kind]["energy_kJ"] >= 0.9 * design[kind]["energy_kJ"], kind, design)
+    page = good("--batch", "--details", *FEW, "-s", "design.gamma_e=3.255829774916818", SCENE).out
+    expect_in("class at factor 3.256\n", page)
     with Folder() as f:
         bare = control_of(f.write("s.yaml", fall({"energy_kJ": 1, "height_m": 1}, design={"survey": "good", "blocks": "good"})))
     expect_equal([bare["design"]["bare"], bare["design"]["system"]], [bare["design"]["arrivals"]] * 2, "no stems")

@@ -243,4 +243,7 @@ TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
     result.last_control = 1;
     expect_words(1, 60, "road (80 m): ✔ YES, also without forest: 4 of 1000 > 50 kJ");
     expect_words(1, 55, "road (80 m): ✔ YES, also without forest: 4 of 1000");
+    static char lines[] = "ro\nd"; /* as wide as printed */
+    two[1].name = lines;
+    expect_words(1, 60, "ro\\x0ad (80 m): ✔ YES, also without forest: 4 of 1000");
 }

@@ -228,6 +228,15 @@ TEST(without_a_face_there_is_no_shadow)
     assert_true(isnan(ceduo_slope_topography(&p.slope, 25, 0, 110).shadow));
 }
 
+/* The smallest number is the distance of two points, so that the slope between them is infinite. */
+TEST(a_segment_may_be_too_short_for_its_slope)
+{
+    static const double points[][2] = {{0, 1}, {5e-324, 0}};
+    struct profile p;
+    profile_make(&p, LENGTH(points), points, 0);
+    EXPECT(ceduo_slope_topography(&p.slope, 0, 0, 5e-324).reach, ==, M_PI_2);
+}
+
 /* Two faces: the angle starts at the lower one. A ditch counts as level. */
 TEST(the_lowest_face_counts)
 {

@@ -16,7 +16,7 @@
 
 #define OPTIONS 3
 
-/* n digits, without an exponent below 1e9; with one above, or if more than 6 decimals would be needed. */
+/* n digits, without an exponent below 1e8; with one above, or if more than 6 decimals would be needed. */
 TEST(numbers_are_shown_with_their_digits)
 {
     for (TABLE(row, "unit/texts.txt", "digits"))
