@@ -126,7 +126,7 @@ enum ceduo_uncertainty_kind {
 #define CEDUO_UNCERTAINTY_ROCKS      400 /* per point, by default */
 #define CEDUO_UNCERTAINTY_MIN        20  /* points that a 90 % range requires */
 
-/* Two options are equal if their shares differ by at most this. With blocks the limit is a tenth of that of struct
+/* Two options are equal if their shares differ by at most this. With blocks: by a tenth of `limit` of struct
  * ceduo_arrivals. Mean energies per released rock are equal if they differ by at most this share of the energy without
  * forest. */
 #define CEDUO_UNCERTAINTY_EQUAL 0.005

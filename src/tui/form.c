@@ -431,7 +431,6 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
     form->area = area;
     if (area.height <= 0 || area.width < 8)
         return;
-    ceduo_form_scroll(form, area);
     const struct viewport *v = &form->lines;
     int label = label_columns(form, area.width);
     for (int i = v->first; i < v->first + v->rows && i < v->count; i++)

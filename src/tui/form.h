@@ -73,7 +73,7 @@ struct form_row *ceduo_form_row(struct form *form);
 /* Scroll to the cursor, for an area. */
 void ceduo_form_scroll(struct form *form, struct ceduo_area area);
 
-/* Draw the lines, scrolled to the cursor. `edit`: text shown in the cell under the cursor; may be NULL. */
+/* Draw the lines. Requires ceduo_form_scroll() for this area. `edit`: text shown in the cell under the cursor; may be NULL. */
 void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit);
 
 /* Move the cursor to the cell in a column of line `row`. Find the area of the cell under the cursor; false: not shown. */

@@ -89,18 +89,11 @@ static bool draw_title(struct app *app)
     return scene > 0;
 }
 
-/* True if the answer depends on its uncertainty. */
-static bool is_open(enum ceduo_judgement judgement)
+/* Return the progress for the end of the answer's line, the only place that shows it. `share`: computed share of the
+ * uncertainty; NaN: only figures are refined. */
+static const char *progress_words(const struct app *app, double share)
 {
-    return judgement != CEDUO_JUDGEMENT_CANNOT_JUDGE && judgement != CEDUO_JUDGEMENT_UNANSWERED;
-}
-
-/* Return what is being computed, for the end of the answer's line, the only place that shows it: the uncertainty, or finer
- * figures. */
-static const char *progress_words(const struct app *app, enum ceduo_judgement judgement)
-{
-    double share = ceduo_live_uncertainty_progress(&app->live, &app->document.file, app->option);
-    if (is_open(judgement) && !isnan(share))
+    if (!isnan(share))
         return ceduo_app_format(app, _(" uncertainty %.0f %%"), floor(100 * share));
     return app->live.busy ? _(" refining \xe2\x80\xa6") : "";
 }
@@ -114,9 +107,10 @@ static void draw_verdict(struct app *app)
         return;
     struct ceduo_subject subject = ceduo_subject_find(ceduo_app_report(app), app->option, r->last_control);
     enum ceduo_judgement judgement = subject.outcome.answer;
-    const char *progress = progress_words(app, judgement);
-    subject.preliminary =
-        is_open(judgement) && !isnan(ceduo_live_uncertainty_progress(&app->live, &app->document.file, app->option));
+    bool open = judgement != CEDUO_JUDGEMENT_CANNOT_JUDGE && judgement != CEDUO_JUDGEMENT_UNANSWERED; /* to the uncertainty */
+    double share = open ? ceduo_live_uncertainty_progress(&app->live, &app->document.file, app->option) : NAN;
+    const char *progress = progress_words(app, share);
+    subject.preliminary = !isnan(share);
     ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE - ceduo_utf8_width(progress));
     ceduo_canvas_draw_text(&app->cells->canvas, 1, 1, app->width - 1,
                            judgement == CEDUO_JUDGEMENT_UNANSWERED ? CEDUO_ROLE_TITLE

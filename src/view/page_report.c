@@ -253,7 +253,7 @@ static void add_years(struct ceduo_page *page, const struct ceduo_report *report
     }
 }
 
-/* True if two warnings of stands are equal but for the stand and the numbers. */
+/* True if two warnings of stands are equal, apart from the stand and the numbers. */
 static bool is_like_warning(const char *a, const char *b)
 {
     static const char *const number = "0123456789.,";

@@ -151,6 +151,9 @@ typedef const char *ceduo_plot_function(struct ceduo_drawing *drawing);
 CEDUO_PLOT_LIST(X)
 #undef X
 
+/* Return the judged share of a year at a control, in rocks of 1000 released; NaN: not simulated. */
+double ceduo_plot_year_share(const struct ceduo_year *year, size_t control);
+
 /* Return the arrivals of a run at a control; NULL if unknown. */
 const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_run_snapshot *run, size_t control);
 

@@ -44,11 +44,11 @@ static struct curve_ahead read_curve_ahead(const struct ceduo_drawing *d, size_t
     if (count > 0 && years->years[0].year == 1 && today)
         c.y[c.n++] = 1000 * ceduo_judged_share(today).mean;
     for (size_t i = 0; i < count; i++) {
-        const struct ceduo_year *year = &years->years[i];
-        if (year->wooded.rocks == 0)
+        double share = ceduo_plot_year_share(&years->years[i], d->picture->control);
+        if (isnan(share))
             continue;
-        c.x[c.n] = year->year;
-        c.y[c.n++] = 1000 * ceduo_judged_share(&year->wooded.arrivals[d->picture->control]).mean;
+        c.x[c.n] = years->years[i].year;
+        c.y[c.n++] = share;
     }
     return c;
 }

@@ -54,10 +54,8 @@ static void draw_year_strips(struct ceduo_drawing *d, int height, const double *
         ceduo_text_format(&share, _("of 1000 released with > %g kJ (limit %g)"), accepted, limit);
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *year = &years->years[i];
-        if (!d->wooded)
-            y[i] = year->controls[d->picture->control].per_100m * J_TO_KJ;
-        else
-            y[i] = year->wooded.rocks > 0 ? 1000 * ceduo_judged_share(&year->wooded.arrivals[d->picture->control]).mean : NAN;
+        y[i] = d->wooded ? ceduo_plot_year_share(year, d->picture->control)
+                         : year->controls[d->picture->control].per_100m * J_TO_KJ;
         max = fmax(max, 1.1 * y[i]);
     }
     max = d->wooded ? 1000 : max > 0 ? max : 1;

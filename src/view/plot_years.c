@@ -18,12 +18,6 @@ int ceduo_plot_years_down(size_t options)
     return ((int)options + PANELS_MAX - 1) / PANELS_MAX;
 }
 
-/* Return how many of 1000 rocks are judged in a year; NaN: not simulated. */
-static double find_share(const struct ceduo_year *year, size_t control)
-{
-    return year->wooded.rocks > 0 ? 1000 * ceduo_judged_share(&year->wooded.arrivals[control]).mean : NAN;
-}
-
 /* Return the top of the scale: the largest share of all options, and the limit. */
 static double find_top(const struct ceduo_drawing *d, double limit)
 {
@@ -31,7 +25,7 @@ static double find_top(const struct ceduo_drawing *d, double limit)
     for (size_t i = 0; i < d->scene->options_count; i++) {
         const struct ceduo_years *years = d->picture->years_of_options[i];
         for (size_t k = 0; k < years->count; k++)
-            top = fmax(top, find_share(&years->years[k], d->picture->control));
+            top = fmax(top, ceduo_plot_year_share(&years->years[k], d->picture->control));
     }
     return top > 0 ? fmin(1.1 * top, 1000) : 1;
 }
@@ -44,7 +38,7 @@ static void draw_panel(struct ceduo_drawing *d, const struct ceduo_area *area, s
     double *x = ceduo_check_memory(malloc(2 * (years->count + 1) * sizeof *x)), *y = x + years->count + 1;
     for (size_t i = 0; i < years->count; i++) {
         x[i] = years->years[i].year;
-        y[i] = find_share(&years->years[i], d->picture->control);
+        y[i] = ceduo_plot_year_share(&years->years[i], d->picture->control);
     }
     double last = x[years->count - 1];
     d->frame = (struct ceduo_frame){.left = area->left + 5,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "core/runs/run.h"
 #include "plot.h"
 #include "scene/stand.h"
 
@@ -30,6 +31,11 @@ enum ceduo_plot ceduo_plot_find(const char *name)
 const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_run_snapshot *run, size_t control)
 {
     return run && control < run->simulated.controls ? &run->simulated.arrivals[control] : NULL;
+}
+
+double ceduo_plot_year_share(const struct ceduo_year *year, size_t control)
+{
+    return year->wooded.rocks > 0 ? 1000 * ceduo_judged_share(&year->wooded.arrivals[control]).mean : NAN;
 }
 
 static struct ceduo_drawing make_drawing(const struct ceduo_picture *p)
