@@ -359,12 +359,14 @@ static bool is_pending(const struct job *job)
     return job->level < job->levels;
 }
 
-/* Rocks of the next step: the job with the fewest runs next. Years have many forests. */
+/* Rocks of the next step: the job with the fewest runs next. Years have many forests. The uncertainty takes longer than the
+ * second level of all others. */
 static uint64_t step_rocks(const struct jobs *q, const struct job *job)
 {
     if (job->kind == JOB_SEARCH || job->kind == JOB_PREVIEW)
         return 0;
-    return level_rocks(q, job->level) * (job->kind == JOB_YEARS && job->level > 0 ? 2 : 1);
+    size_t level = job->kind == JOB_UNCERTAINTY && job->level == 0 ? 1 : job->level;
+    return level_rocks(q, level) * (job->kind == JOB_YEARS && job->level > 0 ? 2 : 1);
 }
 
 static enum job_kind next_job(const struct jobs *q)

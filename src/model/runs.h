@@ -9,7 +9,7 @@
 struct runs;
 
 #define RUNS_FIRST     1024   /* rocks of the first level; each further one simulates ten times more */
-#define RUNS_SKETCH    500    /* rocks for the envelopes of the first level */
+#define RUNS_SKETCH    256    /* rocks for the envelopes of the first level */
 #define RUNS_LEVELS    3      /* levels of a forest; years and the other energy law have one less */
 #define RUNS_MAX       102400 /* limit of rocks per forest */
 #define RUNS_MIN       10240  /* enough once mean energies are known to RUNS_TOLERANCE (95 %) */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/gsl_errors.h"
+#include "base/ranks.h"
 #include "statistics.h"
 
 void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments *from)
@@ -124,53 +124,10 @@ struct percentile ceduo_percentile_compute(struct ceduo_distribution *d, size_t 
     return percentiles[k];
 }
 
-struct target {
-    size_t rank;
-    double *to;
-};
-
 static int compare_ranks(const void *a, const void *b)
 {
-    const struct target *x = a, *y = b;
+    const struct rank *x = a, *y = b;
     return (x->rank > y->rank) - (x->rank < y->rank);
-}
-
-#define BINS 4096 /* that narrow a selection; affects only speed */
-
-/* Move the values that may have one of the ranks to the front, by one count of the values in equal bins, and set the ranks
- * among them. `targets` ascend. Return the number of these values. */
-static size_t narrow_to_ranks(double *values, size_t n, struct target *targets, size_t targets_count)
-{
-    double min = values[0], max = min;
-    for (size_t i = 1; i < n; i++) {
-        min = values[i] < min ? values[i] : min;
-        max = values[i] > max ? values[i] : max;
-    }
-    double scale = BINS / (max - min);
-    if (!(scale > 0 && scale < INFINITY))
-        return n;
-    uint32_t counts[BINS + 1] = {0};
-    bool keep[BINS + 1] = {false};
-    for (size_t i = 0; i < n; i++)
-        counts[(int)((values[i] - min) * scale)]++;
-    for (size_t i = 0, bin = 0, before = 0, dropped = 0; i < targets_count;) {
-        if (targets[i].rank <= before + counts[bin]) {
-            keep[bin] = true;
-            targets[i++].rank -= dropped;
-        } else {
-            before += counts[bin];
-            dropped += keep[bin] ? 0 : counts[bin];
-            bin++;
-        }
-    }
-    size_t kept = 0;
-    for (size_t i = 0; i < n; i++) { /* without a branch, which would be mispredicted */
-        double value = values[i];
-        values[i] = values[kept];
-        values[kept] = value;
-        kept += keep[(int)((value - min) * scale)];
-    }
-    return kept;
 }
 
 struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m)
@@ -182,24 +139,21 @@ struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, con
     d.sd = ceduo_moments_sd(m);
     d.se = ceduo_moments_se(m);
     d.max = m->max;
-    struct target target[3 * PERCENTILES]; /* each percentile with its interval */
+    struct rank ranks[3 * PERCENTILES]; /* each percentile with its interval */
     size_t count = 0;
     for (size_t k = 0; k < PERCENTILES; k++) {
         struct percentile percentile = ceduo_percentile_compute(&d, k);
         size_t lo, hi;
         ceduo_quantile_interval(n, percentile.p, &lo, &hi);
-        target[count++] = (struct target){ceduo_quantile_rank(n, percentile.p), percentile.value};
+        ranks[count++] = (struct rank){ceduo_quantile_rank(n, percentile.p), percentile.value};
         if (lo > 0)
-            target[count++] = (struct target){lo, percentile.lo};
+            ranks[count++] = (struct rank){lo, percentile.lo};
         if (hi <= n)
-            target[count++] = (struct target){hi, percentile.hi};
+            ranks[count++] = (struct rank){hi, percentile.hi};
     }
-    qsort(target, count, sizeof target[0], compare_ranks);
-    n = narrow_to_ranks(values, n, target, count);
-    for (size_t i = 0, from = 0; i < count; i++) { /* search only above the previous rank */
-        size_t index = target[i].rank - 1;
-        *target[i].to = fmin(m->max, gsl_stats_select(values + from, 1, n - from, index - from));
-        from = index;
-    }
+    qsort(ranks, count, sizeof ranks[0], compare_ranks);
+    ceduo_ranks_select(values, n, ranks, count);
+    for (size_t i = 0; i < count; i++)
+        *ranks[i].to = fmin(m->max, *ranks[i].to);
     return d;
 }

@@ -3,36 +3,38 @@
 #include "envelope.h"
 #include "ceduo/simulate.h"
 
-#include <gsl/gsl_statistics.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/parallel.h"
+#include "base/ranks.h"
 #include "prepared.h"
 
 /* Values of the rocks that pass a place. */
 struct passing_values {
     size_t n;
-    double *height, *energy;
+    double *height, *energy, energy_sum;
 };
 
 static void add_rock(struct passing_values *to, const struct ceduo_rock *rock, const struct ceduo_crossing *c)
 {
     if (!c->reached)
         return;
+    double energy = 0.5 * rock->mass * (c->vx * c->vx + c->vz * c->vz) + 0.5 * rock->moment * (c->spin * c->spin);
     to->height[to->n] = c->height;
-    to->energy[to->n++] = 0.5 * rock->mass * (c->vx * c->vx + c->vz * c->vz) + 0.5 * rock->moment * (c->spin * c->spin);
+    to->energy[to->n++] = energy;
+    to->energy_sum += energy;
 }
 
-/* Return the values of ranks p n, rounded up. Each selection leaves smaller values before its rank and larger ones after it. */
-static struct ceduo_cell_quantiles select_ranks(double *values, size_t n)
+/* Return the values of ranks p n, rounded up. */
+static struct ceduo_cell_quantiles select_quantiles(double *values, size_t n)
 {
-    if (n == 0)
-        return (struct ceduo_cell_quantiles){NAN, NAN, NAN, NAN};
-    size_t low = (size_t)ceil(0.05 * (double)n) - 1, middle = (n + 1) / 2 - 1, high = (size_t)ceil(0.95 * (double)n) - 1;
-    double p50 = gsl_stats_select(values, 1, n, middle), p5 = gsl_stats_select(values, 1, middle + 1, low);
-    double p95 = gsl_stats_select(values + middle, 1, n - middle, high - middle);
-    return (struct ceduo_cell_quantiles){p5, p50, p95, gsl_stats_max(values + high, 1, n - high)};
+    struct ceduo_cell_quantiles q = {NAN, NAN, NAN, NAN};
+    struct rank ranks[] = {
+        {(size_t)ceil(0.05 * (double)n), &q.p5}, {(n + 1) / 2, &q.p50}, {(size_t)ceil(0.95 * (double)n), &q.p95}, {n, &q.max}};
+    if (n > 0)
+        ceduo_ranks_select(values, n, ranks, sizeof ranks / sizeof ranks[0]);
+    return q;
 }
 
 static bool is_cancelled(void *flag)
@@ -88,9 +90,9 @@ enum ceduo_status ceduo_envelopes(const struct ceduo_envelopes_def *def, struct 
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         struct passing_values *p = &places[i];
         envelopes[i] = (struct ceduo_envelope){.passed = p->n,
-                                               .mean_energy = p->n > 0 ? gsl_stats_mean(p->energy, 1, p->n) : NAN,
-                                               .height = select_ranks(p->height, p->n),
-                                               .energy = select_ranks(p->energy, p->n)};
+                                               .mean_energy = p->n > 0 ? p->energy_sum / (double)p->n : NAN,
+                                               .height = select_quantiles(p->height, p->n),
+                                               .energy = select_quantiles(p->energy, p->n)};
     }
 done:
     ceduo_tracer_free(tracer);
