@@ -47,7 +47,7 @@ enum ceduo_status {
 /* Return a sentence in English without a full stop; never NULL. */
 const char *ceduo_status_text(enum ceduo_status status);
 
-#define CEDUO_VERSION "0.4.0"
+#define CEDUO_VERSION "0.5.0"
 
 /* Return the version of the running library. Before 1.0 structs may change: programs must compare it with their
  * CEDUO_VERSION. */
