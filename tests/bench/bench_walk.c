@@ -45,6 +45,12 @@ struct measure {
     struct ceduo_arrivals arrivals;
 };
 
+static double draw(void *random, uint64_t contact)
+{
+    (void)contact;
+    return line_uniform(random, 0, 1);
+}
+
 static void init_site(struct site *site, enum ceduo_law law, bool height)
 {
     site->law = law == CEDUO_LAW_CRSP ? "crsp" : "lumped";
@@ -54,14 +60,14 @@ static void init_site(struct site *site, enum ceduo_law law, bool height)
     site->paper.control.accepted = NAN;
     site->paper.scene.simulation.law = law;
     site->paper.scene.simulation.rocks = MANY_ROCKS;
-    site->plain = plain_site(&site->paper, site->plain_segments);
+    site->plain = slow_scene(&site->paper.scene, site->plain_segments);
+    site->plain.uniform = draw;
 }
 
 /* ---- measurement ---- */
 
 static double time_plain(struct site *site, uint64_t rocks, size_t repeat)
 {
-    const struct ceduo_rock rock = plain_rock(&site->paper);
     struct line_random random = {.state = repeat + 1};
     struct plain_sums *sums = &site->plain_sums;
     site->plain.context = &random;
@@ -74,7 +80,7 @@ static double time_plain(struct site *site, uint64_t rocks, size_t repeat)
         if (!trajectory.crossing.reached)
             continue;
         double speed = hypot(trajectory.crossing.vx, trajectory.crossing.vz),
-               energy = plain_energy(&rock, &trajectory.crossing);
+               energy = slow_energy(&site->plain, &trajectory.crossing);
         sums->passed++;
         sums->speed += speed;
         sums->speed2 += speed * speed;
