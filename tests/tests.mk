@@ -225,7 +225,7 @@ stress: $(T)/physics/test_stress
 
 BENCH := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/bench/bench_*.c))
 $(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c)) \
-		tests/physics/paper_site.c tests/physics/line_scene.c tests/physics/quarry_site.c) $(PARTS) $(LIBRARY)
+		tests/physics/paper_site.c tests/physics/line_scene.c tests/physics/plane_map.c tests/physics/quarry_site.c) $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(link) $(LIBS)
 

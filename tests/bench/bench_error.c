@@ -155,10 +155,8 @@ static double draw(void *context, uint64_t contact)
     return number(context, STARTS + (unsigned)(contact < SOBOL_MAX ? contact : SOBOL_MAX), false);
 }
 
-static double run_plain(const struct paper_site *site, struct slow_def def, struct stream *s, uint64_t rocks, uint64_t seed,
-                        double value[QUANTITIES])
+static double run_plain(struct slow_def def, struct stream *s, uint64_t rocks, uint64_t seed, double value[QUANTITIES])
 {
-    const struct ceduo_rock body = plain_rock(site);
     double sum = 0;
     def.uniform = draw;
     def.context = s;
@@ -177,7 +175,7 @@ static double run_plain(const struct paper_site *site, struct slow_def def, stru
         begin(s, rock, &def);
         const struct slow_trajectory trajectory = slow_walk(&def);
         if (trajectory.crossing.reached)
-            sum += s->energies[s->n++] = plain_energy(&body, &trajectory.crossing);
+            sum += s->energies[s->n++] = slow_energy(&def, &trajectory.crossing);
     }
     double seconds = ceduo_clock() - start;
     size_t exceeded = 0;
@@ -197,12 +195,12 @@ static void measure_numbers(const char *label, bool spread, size_t asked)
     struct paper_site site;
     struct slow_segment segments[PAPER_SEGMENTS];
     paper_site_init(&site);
-    const struct slow_def def = plain_site(&site, segments);
+    const struct slow_def def = slow_scene(&site.scene, segments);
     struct stream source = {.spread = spread, .sobol = gsl_qrng_alloc(gsl_qrng_sobol, SOBOL_MAX)};
     if (!source.sobol)
         fail("no memory");
     double truth[QUANTITIES], true_se[QUANTITIES];
-    run_plain(&site, def, &source, PLAIN_TRUE_ROCKS, 1u << 20, truth);
+    run_plain(def, &source, PLAIN_TRUE_ROCKS, 1u << 20, truth);
     for (int q = 0; q < QUANTITIES; q++) /* half width for shares; about that of the others */
         true_se[q] = (q == MEAN || q == P95 ? truth[q] * 0.3 : 0.5) / sqrt(PLAIN_TRUE_ROCKS);
     for (uint64_t rocks = 100; rocks <= 100000; rocks *= 10) {
@@ -212,7 +210,7 @@ static void measure_numbers(const char *label, bool spread, size_t asked)
             for (int k = 0; k < NUMBERS; k++) { /* by turns, so that other load slows all equally */
                 double value[QUANTITIES];
                 source.kind = (enum numbers)k;
-                rows[k].seconds += run_plain(&site, def, &source, rocks, i + 1, value);
+                rows[k].seconds += run_plain(def, &source, rocks, i + 1, value);
                 rows[k].repeats++;
                 for (int q = 0; q < QUANTITIES; q++) {
                     rows[k].error2[q] += (value[q] - truth[q]) * (value[q] - truth[q]);

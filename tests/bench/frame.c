@@ -2,7 +2,6 @@
 #include "frame.h"
 #include "ceduo/simulate.h"
 #include "core/runs/run.h"
-#include "scene/rock.h"
 
 #include <errno.h>
 #include <math.h>
@@ -94,50 +93,4 @@ struct ceduo_slope fine_slope(const struct ceduo_segment *ground, double metres,
     }
     roughen_slope(&s, 0.03);
     return s;
-}
-
-/* ---- the plain walk ---- */
-
-struct ceduo_rock plain_rock(const struct paper_site *site)
-{
-    struct ceduo_rock rock;
-    if (ceduo_rock_from_means(&site->scene.rock, &rock) != CEDUO_OK)
-        fail("bad rock");
-    return rock;
-}
-
-static double draw(void *random, uint64_t contact)
-{
-    (void)contact;
-    return line_uniform(random, 0, 1);
-}
-
-struct slow_def plain_site(const struct paper_site *site, struct slow_segment segments[PAPER_SEGMENTS])
-{
-    const struct ceduo_rock rock = plain_rock(site);
-    for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
-        const struct ceduo_segment *s = &site->segments[j];
-        segments[j] = slow_segment_between(site->x[j], site->z[j], site->x[j + 1], site->z[j + 1]);
-        segments[j].rn = s->rn.mean;
-        segments[j].rt = s->rt.mean;
-        segments[j].friction = s->friction;
-        segments[j].theta_max = isnan(s->roughness_m) ? s->roughness_rad : atan(s->roughness_m / rock.radius);
-    }
-    return (struct slow_def){.count = PAPER_SEGMENTS,
-                             .segments = segments,
-                             .law = site->scene.simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
-                             .gravity = CEDUO_GRAVITY,
-                             .radius = rock.radius,
-                             .k = rock.k,
-                             .vx0 = site->scene.release.vx.mean,
-                             .vz0 = site->scene.release.vz.mean,
-                             .uniform = draw,
-                             .max_contacts = CEDUO_CONTACTS_MAX,
-                             .control = site->control.x};
-}
-
-double plain_energy(const struct ceduo_rock *rock, const struct slow_crossing *c)
-{
-    double rim = c->spin * rock->radius;
-    return rock->mass / 2 * (c->vx * c->vx + c->vz * c->vz + rock->k * rim * rim);
 }

@@ -37,10 +37,4 @@ void roughen_slope(struct ceduo_slope *s, double steepness);
  * slope_free(). */
 struct ceduo_slope fine_slope(const struct ceduo_segment *ground, double metres, size_t vertices);
 
-/* Return the paper's site for the plain walk: the means of its rock, facets drawn one after another from the generator
- * `context`, and the energy at the control. */
-struct slow_def plain_site(const struct paper_site *site, struct slow_segment segments[PAPER_SEGMENTS]);
-struct ceduo_rock plain_rock(const struct paper_site *site);
-double plain_energy(const struct ceduo_rock *rock, const struct slow_crossing *c);
-
 #endif

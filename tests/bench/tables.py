@@ -4,6 +4,7 @@
 
     tables.py [--check] PAGE...         reads tests/bench/results; --check writes nothing, and fails if a page is stale"""
 import csv
+import errno
 import math
 import re
 import sys
@@ -42,7 +43,10 @@ class Results:
 
     def rows(self, name, **only):
         with open(self.folder / f"{name}.csv", encoding="utf-8") as f:
-            return [r for r in csv.DictReader(f) if all(r[k] == v for k, v in only.items())]
+            found = [r for r in csv.DictReader(f) if all((r.get(k) or "") == v for k, v in only.items())]
+        if not found:  # the bench has these rows since a later version
+            raise FileNotFoundError(errno.ENOENT, "no such rows", f.name)
+        return found
 
     # ---- one function per table ----
 
@@ -57,7 +61,7 @@ class Results:
     def walk(self):
         out = []
         for law in ("lumped", "crsp"):
-            rows = self.rows("bench_walk", law=law)
+            rows = self.rows("bench_walk", law=law, forest="")
             plain = next(float(r["contacts_per_s"]) for r in rows if r["what"] == "plain-loop")
             for r in [*self.rows("numpy_loop", law=law), *rows]:
                 out.append([law, r["what"].replace("ceduo-", ""), r["rocks"], digits(float(r["contacts_per_s"]) / 1e6),
@@ -110,8 +114,10 @@ class Results:
                        digits(r["speed_off_in_se"], 1)] for r in self.rows("bench_rounding") if r["mode"] == "upward"])
 
     def stems(self):
-        rows = self.rows("bench_stems")
-        return table(list(rows[0]), [list(r.values()) for r in rows])
+        return table(["program", "rocks", "ns/rock", "ns/contact", "ns/hit", "plain loop = 1"],
+                     [[r["what"].replace("ceduo-", ""), r["rocks"], digits(float(r["seconds_median"]) / float(r["rocks"]) * 1e9),
+                       digits(r["ns_per_contact"]), digits(r["ns_per_hit"]), digits(r["ratio_to_plain"], 2)]
+                      for r in self.rows("bench_walk", forest="stems")])
 
     def rotation(self):
         return table(["scene", "options", "years", "rocks", "runs", "seconds", "processor s"],

@@ -22,6 +22,7 @@ struct touch {
 struct walker {
     const struct slow_def *def;
     struct slow_trajectory *trajectory;
+    size_t stems_passed;
     const struct slow_segment *segment; /* current segment, or the one under the release */
     bool on_ground;
     bool rolled; /* true if it reached this contact rolling */
@@ -196,6 +197,28 @@ static void record_roll(struct walker *w, const struct roll *roll, slow_real to)
     record(w, u * w->segment->turn.cosine, u * w->segment->turn.sine, rolling_spin(w->def, u), 0);
 }
 
+/* ---- stems ---- */
+
+/* Return the next stem, if it stands before `to`. A trajectory back has to < x and meets none. */
+static const struct slow_stem *stem_before(const struct walker *w, slow_real to)
+{
+    const size_t i = w->stems_passed;
+    return i < w->def->stems_count && w->def->stems[i].x <= to ? &w->def->stems[i] : NULL;
+}
+
+/* Take the energy of a hit. All speeds decrease by one factor. False if the stem stops the rock. */
+static bool hit_stem(struct walker *w, const struct slow_stem *stem)
+{
+    const slow_real rim = w->spin * (slow_real)w->def->radius;
+    const slow_real energy = (slow_real)w->def->mass / 2 * (square(w->vx) + square(w->vz) + inertia(w->def) * square(rim));
+    const slow_real left = energy > stem->energy ? 1 - stem->energy / energy : 0;
+    w->trajectory->hits++;
+    w->vx *= sqrt(left);
+    w->vz *= sqrt(left);
+    w->spin *= sqrt(left);
+    return left > 0;
+}
+
 /* ---- flight ---- */
 
 /* Return the later root of c + b t - g t^2 / 2, without cancellation. A concave function falls through 0 only at its later
@@ -248,18 +271,47 @@ static struct touch next_touch(const struct walker *w)
     }
 }
 
-static enum todo fly_to_contact(struct walker *w)
+/* Fly over the next stem, or hit it and begin another flight there. */
+static enum todo fly_to_stem(struct walker *w, const struct slow_stem *stem)
+{
+    const slow_real g = w->def->gravity, x = stem->x, t = compute_time(w, x);
+    const struct slow_segment *s = w->segment;
+    while (x > s->x1 && !is_last(w->def, s, 1))
+        s++;
+    const slow_real under = ground(s, x), clearance = not_below_0(w->z + t * (w->vz - g * t / 2) - under);
+    w->stems_passed++;
+    if (!(clearance < stem->height))
+        return TODO_FLIGHT;
+    record_flight(w, x);
+    w->x = x;
+    w->z = under + clearance;
+    w->vz -= g * t;
+    w->segment = s;
+    w->on_ground = false;
+    if (!hit_stem(w, stem))
+        return end(w, SLOW_STOPPED);
+    w->touch = next_touch(w);
+    return TODO_FLIGHT;
+}
+
+static enum todo fly(struct walker *w)
 {
     const slow_real g = w->def->gravity;
+    const slow_real to = w->touch.segment ? w->touch.x
+                         : w->vx > 0      ? w->def->segments[w->def->count - 1].x1
+                                          : w->def->segments[0].x0;
+    const struct slow_stem *stem = stem_before(w, to);
+    if (stem)
+        return fly_to_stem(w, stem);
     if (!w->touch.segment) {
-        const slow_real x = w->vx > 0 ? w->def->segments[w->def->count - 1].x1 : w->def->segments[0].x0, t = compute_time(w, x);
-        record_flight(w, x);
-        w->x = x;
+        const slow_real t = compute_time(w, to);
+        record_flight(w, to);
+        w->x = to;
         w->z += t * (w->vz - g * t / 2);
         return end(w, SLOW_LEFT);
     }
-    record_flight(w, w->touch.x);
-    w->x = w->touch.x;
+    record_flight(w, to);
+    w->x = to;
     w->segment = w->touch.segment;
     w->z = ground(w->segment, w->x);
     w->vz -= g * w->touch.time;
@@ -410,23 +462,42 @@ static enum todo pass_vertex(struct walker *w, struct roll *roll)
     return TODO_ROLL;
 }
 
-/* Roll to the next vertex or to the end of the length. A rock on the vertex itself has no step before it in which it could
- * stop. */
+/* Roll to a stem and hit it. A rock that the stem does not stop continues its length. */
+static enum todo roll_to_stem(struct walker *w, struct roll *roll, const struct slow_stem *stem)
+{
+    const slow_real x = stem->x;
+    record_roll(w, roll, x);
+    roll->u2 = not_below_0(roll->u2 + roll_gain(w, x - w->x)); /* rounding if the rock stops right at the stem */
+    roll->left -= fabs(x - w->x) / w->segment->turn.cosine;
+    move_on_segment(w, x);
+    set_rolling_velocity(w, roll);
+    w->stems_passed++;
+    if (!hit_stem(w, stem))
+        return end(w, SLOW_STOPPED);
+    roll->u2 = square(w->vx) + square(w->vz);
+    return TODO_ROLL;
+}
+
+/* Roll to the next stem, to the next vertex or to the end of the length. A rock on the vertex itself has no step before it in
+ * which it could stop. */
 static enum todo roll_piece(struct walker *w, struct roll *roll)
 {
     const slow_real x_vertex = exit_x(w->segment, roll->direction), length = fabs(x_vertex - w->x) / w->segment->turn.cosine;
     const bool ends = roll->left <= length;
-    const slow_real to = roll->left < length ? w->x + roll->direction * roll->left * w->segment->turn.cosine : x_vertex;
+    slow_real to = roll->left < length ? w->x + roll->direction * roll->left * w->segment->turn.cosine : x_vertex;
     const slow_real u2_end = roll->u2 + roll_gain(w, to - w->x);
-    if (to != w->x && !(u2_end > 0)) { /* u^2 is linear in x: interpolate its zero */
-        const slow_real x = w->x + (to - w->x) * (roll->u2 > 0 ? roll->u2 / (roll->u2 - u2_end) : 0);
-        record_roll(w, roll, x);
-        move_on_segment(w, x);
+    const bool stands = to != w->x && !(u2_end > 0);
+    if (stands) /* u^2 is linear in x, interpolate its zero */
+        to = w->x + (to - w->x) * (roll->u2 > 0 ? roll->u2 / (roll->u2 - u2_end) : 0);
+    const struct slow_stem *stem = stem_before(w, to);
+    if (stem)
+        return roll_to_stem(w, roll, stem);
+    record_roll(w, roll, to);
+    move_on_segment(w, to);
+    if (stands) {
         w->vx = w->vz = w->spin = 0;
         return TODO_STAND;
     }
-    record_roll(w, roll, to);
-    move_on_segment(w, to);
     roll->u2 = u2_end;
     roll->left -= length;
     if (!ends)
@@ -528,7 +599,7 @@ static enum todo release(struct walker *w)
 struct slow_trajectory slow_walk(const struct slow_def *def)
 {
     static enum todo (*const steps[])(struct walker *) = {
-        [TODO_CONTACT] = contact, [TODO_FLIGHT] = fly_to_contact, [TODO_ROLL] = roll, [TODO_STAND] = stand};
+        [TODO_CONTACT] = contact, [TODO_FLIGHT] = fly, [TODO_ROLL] = roll, [TODO_STAND] = stand};
     struct slow_trajectory trajectory = {.contacts = 0};
     struct walker w = {.def = def, .trajectory = &trajectory, .x = def->x0, .z = def->z0, .vx = def->vx0, .vz = def->vz0};
     w.spin = def->law == SLOW_CRSP ? (slow_real)def->spin0 : 0;

@@ -17,7 +17,7 @@ typedef SLOW_REAL slow_real;
 
 enum slow_law { SLOW_LUMPED, SLOW_CRSP };
 enum slow_facets { SLOW_AGAINST, SLOW_BOTH };
-enum slow_end { SLOW_REST, SLOW_LEFT, SLOW_UNFINISHED };
+enum slow_end { SLOW_REST, SLOW_LEFT, SLOW_STOPPED, SLOW_UNFINISHED }; /* stopped: by a stem */
 
 /* A direction in the plane. */
 struct slow_turn {
@@ -29,6 +29,12 @@ struct slow_segment {
     slow_real slope, angle;   /* dz/dx and its angle, set by slow_segment_between() */
     struct slow_turn turn;    /* direction of the angle */
     slow_real rn, rt, friction, theta_max;
+};
+
+/* A stem in the path. A flying rock hits it if its clearance above the ground is less than `height`, a rolling rock always. */
+struct slow_stem {
+    double x, height;
+    double energy; /* J that a hit takes; the rock stops if it has at most this energy */
 };
 
 /* The first crossing of a control in +x: velocity and spin before the contact, and clearance above the polyline. */
@@ -45,6 +51,9 @@ struct slow_def {
     bool scale_rn;                                      /* lumped only: Rn decreases with the normal speed */
     bool friction_bound;                                /* false: the published laws and rolling of CRSP */
     double gravity, radius, k;                          /* k = I / (M R^2), unused by the lumped law */
+    double mass;                                        /* kg, used only by stems */
+    size_t stems_count;                                 /* from the release on; the rock meets each once, moving along +x */
+    const struct slow_stem *stems;                      /* in order of x; may be NULL without stems */
     double x0, z0, vx0, vz0, spin0;                     /* the release, on or above ground */
     double (*uniform)(void *context, uint64_t contact); /* facet draw of contact number `contact`, from 0 */
     void *context;
@@ -58,7 +67,7 @@ struct slow_def {
 struct slow_trajectory {
     enum slow_end end;
     double x, z;
-    uint64_t contacts;
+    uint64_t contacts, hits; /* contacts with the ground, hits of stems */
     struct slow_crossing crossing;
 };
 

@@ -157,12 +157,6 @@ struct met meet(uint64_t rocks, double metres)
     return m;
 }
 
-double printed_share(double u)
-{
-    double e = -.046 + (.98 + .046) / (1 + pow(10, (.58 - u) * -8.007));
-    return e < 0 ? 0 : e > 1 ? 1 : e;
-}
-
 double mean_printed_share(void)
 {
     const int n = 20000;

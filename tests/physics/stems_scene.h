@@ -8,6 +8,7 @@
 #include "ceduo/simulate.h"
 #include "line_scene.h"
 #include "paper_site.h"
+#include "plane_map.h"
 #include "runs.h"
 #include "sample.h"
 
@@ -72,9 +73,7 @@ struct met {
     struct spread sum;                 /* stems and stools, for their covariance */
 };
 
-/* Share of the largest energy by eccentricity as printed by Dorren et al. 2006, clamped to 0…1, and its mean by Simpson's
- * rule. */
-double printed_share(double u);
+/* Mean of printed_share() by Simpson's rule. */
 double mean_printed_share(void);
 
 struct met meet(uint64_t rocks, double metres);

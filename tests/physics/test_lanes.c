@@ -5,7 +5,6 @@
 #include "core/runs/run.h"
 #include "expect.h"
 #include "local.h"
-#include "scene/rock.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -436,29 +435,9 @@ static double slow_speed(const struct ceduo_scene *scene, uint64_t rock)
 {
     struct slow_segment segments[PAPER_SEGMENTS];
     struct facets facets = {scene->simulation.seed, rock};
-    struct ceduo_rock body;
-    const struct ceduo_slope *slope = &scene->slope;
-    const struct ceduo_release *r = &scene->release;
-    assert_int_equal(ceduo_rock_from_means(&scene->rock, &body), CEDUO_OK);
-    slow_segments(slope, body.radius, segments);
-    const struct slow_def def = {.count = slope->vertices - 1,
-                                 .segments = segments,
-                                 .law = scene->simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
-                                 .facets = slope->facets == CEDUO_FACETS_BOTH ? SLOW_BOTH : SLOW_AGAINST,
-                                 .scale_rn = scene->simulation.scale_rn,
-                                 .friction_bound = scene->simulation.friction_bound,
-                                 .gravity = scene->simulation.gravity,
-                                 .radius = body.radius,
-                                 .k = body.k,
-                                 .x0 = r->x.mean,
-                                 .z0 = ceduo_slope_height(slope, r->x.mean) + r->height.mean,
-                                 .vx0 = r->vx.mean,
-                                 .vz0 = r->vz.mean,
-                                 .spin0 = r->spin.mean,
-                                 .uniform = slow_draw,
-                                 .context = &facets,
-                                 .max_contacts = CEDUO_CONTACTS_MAX,
-                                 .control = scene->controls[0].x};
+    struct slow_def def = slow_scene(scene, segments);
+    def.uniform = slow_draw;
+    def.context = &facets;
     const struct slow_trajectory trajectory = slow_walk(&def);
     return trajectory.crossing.reached ? hypot(trajectory.crossing.vx, trajectory.crossing.vz) : NAN;
 }

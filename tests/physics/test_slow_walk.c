@@ -110,33 +110,19 @@ static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct li
 {
     static struct slow_segment segments[LINE_SEGMENTS_MAX];
     const struct ceduo_slope *slope = &scene->slope;
-    const struct ceduo_release *r = &scene->release;
-    struct ceduo_rock body;
-    assert_int_equal(ceduo_rock_from_means(&scene->rock, &body), CEDUO_OK);
-    slow_segments(slope, body.radius, segments);
-    memset(t, 0, sizeof *t);
     struct slow_context context = {t, scene->simulation.seed, rock, 0, change};
-    double x = nudge(r->x.mean, change);
-    double z = r->height.mean > 0 ? ceduo_slope_height(slope, x) + nudge(r->height.mean, change) : on_ground(slope, x);
-    const struct slow_def def = {.count = slope->vertices - 1,
-                                 .segments = segments,
-                                 .law = scene->simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
-                                 .facets = slope->facets == CEDUO_FACETS_BOTH ? SLOW_BOTH : SLOW_AGAINST,
-                                 .scale_rn = scene->simulation.scale_rn,
-                                 .friction_bound = scene->simulation.friction_bound,
-                                 .gravity = nudge(scene->simulation.gravity, change),
-                                 .radius = nudge(body.radius, change),
-                                 .k = body.k,
-                                 .x0 = x,
-                                 .z0 = z,
-                                 .vx0 = nudge(r->vx.mean, change),
-                                 .vz0 = nudge(r->vz.mean, change),
-                                 .spin0 = nudge(r->spin.mean, change),
-                                 .uniform = draw,
-                                 .context = &context,
-                                 .max_contacts = CONTACTS,
-                                 .control = scene->controls_count > 0 ? scene->controls[0].x : NAN,
-                                 .on_contact = note_contact};
+    struct slow_def def = slow_scene(scene, segments);
+    memset(t, 0, sizeof *t);
+    def.uniform = draw;
+    def.context = &context;
+    def.max_contacts = CONTACTS;
+    def.on_contact = note_contact;
+    def.x0 = nudge(def.x0, change);
+    const double height = scene->release.height.mean;
+    def.z0 = height > 0 ? ceduo_slope_height(slope, def.x0) + nudge(height, change) : on_ground(slope, def.x0);
+    double *others[] = {&def.gravity, &def.radius, &def.vx0, &def.vz0, &def.spin0};
+    for (size_t i = 0; i < LENGTH(others); i++)
+        *others[i] = nudge(*others[i], change);
     const struct slow_trajectory trajectory = slow_walk(&def);
     const struct slow_crossing *c = &trajectory.crossing;
     static const int ends[] = {[SLOW_REST] = CEDUO_END_AT_REST, [SLOW_LEFT] = CEDUO_END_LEFT_SLOPE, [SLOW_UNFINISHED] = -1};

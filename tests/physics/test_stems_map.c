@@ -60,7 +60,7 @@ static void sweep_trajectories(struct swept *to, uint64_t rocks)
     for (SWEEP(rock, rocks)) {
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_encounter *p = &sweep.stems[i];
-            stems[i] = (struct map_stem){p->x, p->y, p->dbh, p->shoot, p->stool};
+            stems[i] = (struct map_stem){p->x, p->y, p->dbh, p->shoot, p->stool, p->height, NAN};
             if (i > 0 && !(p->x >= p[-1].x))
                 fail_msg("rock %ju comes to stems in the wrong order", (uintmax_t)rock);
         }
