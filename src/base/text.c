@@ -87,7 +87,7 @@ static locale_t get_dot_locale(void)
 }
 
 /* As vsnprintf(), with a decimal point in every locale. Allocates no memory. */
-static int format_with_dot(char *to, size_t size, const char *format, va_list args)
+static __attribute__((format(printf, 3, 0))) int format_with_dot(char *to, size_t size, const char *format, va_list args)
 {
     locale_t before = uselocale(get_dot_locale());
     int n = vsnprintf(to, size, format, args);

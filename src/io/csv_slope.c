@@ -32,14 +32,15 @@ enum column { DISTANCE, ELEVATION, EAST, NORTH, LAYER, WKT, LABEL, COLUMNS };
 #define METRES "m|mt|metri|metro|metres|meters|meter|m slm|m sm|m asl|m amsl|m \xc3\xbcm|m \xc3\xbc nn|m nn|m nhn"
 static const struct csv_head heads[COLUMNS] = {
     [DISTANCE] = {"distance",
-                  "distanza|dist|chainage|progressiva|distanza progressiva|progr|entfernung|distanz|station|stazione", METRES},
+                  "distanza|dist|chainage|progressiva|distanza progressiva|progr|entfernung|distanz|station|stazione",
+                  .units = METRES},
     [ELEVATION] = {"elevation", "quota|altitude|altitudine|elevazione|alt|height|h\xc3\xb6he|hoehe|z|value|quota terreno|elev",
-                   METRES},
-    [EAST] = {"x", "est|east|easting|e", METRES},
-    [NORTH] = {"y", "nord|north|northing|n", METRES},
-    [LAYER] = {"layer", "layer name|livello|nome layer|line|linea|line id|profile|profilo|track"},
-    [WKT] = {"wkt", "wkt_geom|geometry|geom|the_geom|shape"},
-    [LABEL] = {"name", "nome|id|fid"},
+                   .units = METRES},
+    [EAST] = {"x", "est|east|easting|e", .units = METRES},
+    [NORTH] = {"y", "nord|north|northing|n", .units = METRES},
+    [LAYER] = {"layer", .also = "layer name|livello|nome layer|line|linea|line id|profile|profilo|track"},
+    [WKT] = {"wkt", .also = "wkt_geom|geometry|geom|the_geom|shape"},
+    [LABEL] = {"name", .also = "nome|id|fid"},
 };
 
 /* A point in the file. */

@@ -25,8 +25,9 @@
 
 const struct csv_head ceduo_survey_heads[COLUMNS] = {
     [PLOT] = {N_("plot"),
-              "saggio|n saggio|num saggio|numero saggio|area di saggio|n area di saggio|numero area di saggio|ads|n ads|"
-              "id saggio|plot id|plot no|plot number|id plot|probefläche|probekreis|parzelle"},
+              .also =
+                  "saggio|n saggio|num saggio|numero saggio|area di saggio|n area di saggio|numero area di saggio|ads|n ads|"
+                  "id saggio|plot id|plot no|plot number|id plot|probefläche|probekreis|parzelle"},
     [AREA] = {N_("area_m2"),
               "plot area|area saggio|area del saggio|area ads|superficie saggio|superficie del saggio|superficie ads|"
               "sup saggio|probeflächengröße|area|superficie|sup|fläche",
@@ -38,12 +39,13 @@ const struct csv_head ceduo_survey_heads[COLUMNS] = {
                 "ceppaie|n ceppaie|num ceppaie|numero ceppaie|n di ceppaie|stool count|number of stools|no of stools|"
                 "anzahl stöcke|stöcke",
                 .unit = N_("stools"), .hi = STEMS_MAX},
-    [SPECIES] = {N_("species"), "specie|essenza|spp|baumart|holzart"},
-    [GENUS] = {N_("genus"), "genere|gattung"},
-    [KIND] = {N_("kind"), "stem type|tipo fusto|tipo di fusto|tipo|origine|p/m|typ"},
+    [SPECIES] = {N_("species"), .also = "specie|essenza|spp|baumart|holzart"},
+    [GENUS] = {N_("genus"), .also = "genere|gattung"},
+    [KIND] = {N_("kind"), .also = "stem type|tipo fusto|tipo di fusto|tipo|origine|p/m|typ"},
     [STOOL] =
         {N_("stool"),
-         "ceppaia|n ceppaia|num ceppaia|numero ceppaia|ceppaia n|id ceppaia|stool id|stool no|stool number|stock|stock nr"},
+         .also =
+             "ceppaia|n ceppaia|num ceppaia|numero ceppaia|ceppaia n|id ceppaia|stool id|stool no|stool number|stock|stock nr"},
     [DBH] = {N_("dbh_cm"),
              "dbh|dap|diametro|diam|diametro a 1,30 m|diametro a 1,30|diam a 1,30|diam a 1,30 m|diam 1,30|d130|"
              "diametro medio|diam medio|d medio|classe diam|classe diametrica|classe di diametro|diameter|mean dbh|"
@@ -75,18 +77,20 @@ const struct csv_head ceduo_survey_heads[COLUMNS] = {
                    .unit = N_("stems"), .hi = STEMS_MAX},
     [TREES] = {N_("trees"), "alberi|n alberi|num alberi|numero alberi|number of trees|no of trees|n trees|bäume",
                .unit = N_("stems"), .hi = STEMS_MAX},
-    [STATUS] = {N_("status"), "vitalità|vitalita|stato|condizione|condizioni|condition|health|statuscd|status cd|live/dead|"
-                              "vivo/morto|v/m|zustand|vitalität"},
-    [ID] = {N_("id"), "n pianta|num pianta|numero pianta|pianta|id pianta|id pollone|n pollone|id fusto|n fusto|n albero|"
-                      "id albero|tree|tree id|tree no|tree number|stem id|baum nr|baumnummer"},
-    [YEAR] = {N_("year"), "anno|anno rilievo|survey year|measurement year|invyr|jahr|aufnahmejahr"},
-    [SITE] = {N_("site"), "sito|località|localita|locality|location|standort|ort"},
-    [SITE + 1] = {N_("stand"), "popolamento|soprassuolo|bestand"},
-    [SITE + 2] = {N_("compresa")},
-    [SITE + 3] = {N_("compartment"), "particella|particella forestale|part for|abteilung"},
-    [SITE + 4] = {N_("subcompartment"), "sottoparticella|sub|unterabteilung"},
-    [SITE + 5] = {N_("stratum"), "strato|strata"},
-    [SITE + 6] = {N_("county"), "countycd|county cd"},
+    [STATUS] = {N_("status"), .also =
+                                  "vitalità|vitalita|stato|condizione|condizioni|condition|health|statuscd|status cd|live/dead|"
+                                  "vivo/morto|v/m|zustand|vitalität"},
+    [ID] = {N_("id"), .also =
+                          "n pianta|num pianta|numero pianta|pianta|id pianta|id pollone|n pollone|id fusto|n fusto|n albero|"
+                          "id albero|tree|tree id|tree no|tree number|stem id|baum nr|baumnummer"},
+    [YEAR] = {N_("year"), .also = "anno|anno rilievo|survey year|measurement year|invyr|jahr|aufnahmejahr"},
+    [SITE] = {N_("site"), .also = "sito|località|localita|locality|location|standort|ort"},
+    [SITE + 1] = {N_("stand"), .also = "popolamento|soprassuolo|bestand"},
+    [SITE + 2] = {.name = N_("compresa")},
+    [SITE + 3] = {N_("compartment"), .also = "particella|particella forestale|part for|abteilung"},
+    [SITE + 4] = {N_("subcompartment"), .also = "sottoparticella|sub|unterabteilung"},
+    [SITE + 5] = {N_("stratum"), .also = "strato|strata"},
+    [SITE + 6] = {N_("county"), .also = "countycd|county cd"},
 };
 
 /* ---- words ---- */
@@ -96,8 +100,8 @@ static const char *const kind_names[] = {CEDUO_SURVEY_KINDS(X)};
 #undef X
 static const char *const kinds_also[] = {
     "shoot|shoots|coppice shoot|sprout|pollone|polloni|poll|p|agamica|agamico|stockausschlag|lode|loden",
-    "standard|standards|matricina|matricine|matr|m|matr 1t|matr 2t|matr 3t|matricina 1t|matricina 2t|matricina 3t|m1t|m2t|m3t|"
-    "riserva|überhälter|lassreitel",
+    ("standard|standards|matricina|matricine|matr|m|matr 1t|matr 2t|matr 3t|matricina 1t|matricina 2t|matricina 3t|m1t|m2t|m3t|"
+     "riserva|überhälter|lassreitel"),
     "tree|trees|high forest|albero|alberi|allievo|allievi|fustaia|alto fusto|gamica|gamico|da seme|baum|bäume|kernwuchs",
     "stump|stumps|ceppo|ceppi|stubben|baumstumpf"};
 const struct choices ceduo_survey_kind_words = {kind_names, CEDUO_SURVEY_KINDS_COUNT, kinds_also};

@@ -160,10 +160,10 @@ static bool find_columns(const struct entry *e, struct table *t)
 {
     const struct ceduo_quantity_row *quantity = ceduo_observed_quantity(e->kind);
     struct csv *csv = &t->csv;
-    const struct csv_head heads[COLUMNS] = {[VALUES] = {quantity->column, quantity->also, quantity->unit},
-                                            [MAP] = {"y_m", "y|northing|north|nord", "m"},
-                                            [NAMED] = {e->values->column, NULL, ""},
-                                            [ONLY] = {t->only_name, NULL, ""}};
+    const struct csv_head heads[COLUMNS] = {[VALUES] = {quantity->column, quantity->also, .units = quantity->unit},
+                                            [MAP] = {"y_m", "y|northing|north|nord", .units = "m"},
+                                            [NAMED] = {e->values->column, .units = ""},
+                                            [ONLY] = {t->only_name, .units = ""}};
     const struct csv_place begin = csv->next;
     LOCAL_TEXT(all);
     double number;

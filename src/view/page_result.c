@@ -188,7 +188,8 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     LOCAL_TEXT(energy_limit);
     ceduo_text_format(&adc_limit, "< %s", LOCALIZED(threshold));
     ceduo_text_format(&free_run_limit, "\xe2\x89\xa4 %g", CEDUO_FREE_RUN_MAX * 100);
-    ceduo_text_format(&energy_limit, judged ? "\xe2\x89\xa4 %s" : "", SIG_TRIMMED(limit * 100, 3));
+    if (judged)
+        ceduo_text_format(&energy_limit, "\xe2\x89\xa4 %s", SIG_TRIMMED(limit * 100, 3));
     CEDUO_PAGE_TABLE_OF(page, columns);
     bool gap = index->length > 0 && index->longest_gap > threshold; /* the gap is why both tests fail */
     add_name(page, gap ? _("gap without forest, m") : _("distance between contacts (ADC), m"), gap ? _("gap m") : _("ADC m"));

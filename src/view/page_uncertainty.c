@@ -268,7 +268,8 @@ static void add_options(struct ceduo_page *page, const struct ceduo_uncertainty_
     }
     end = end > 0 ? ceduo_plot_round(end, true) : 1;
     end = get_factor(r) > 1 ? fmin(1000, end) : end;
-    ceduo_text_format(&page->last->cells[1].text, bars ? "0\xe2\x80\x93%s" : "", SIG_TRIMMED(end, 4));
+    if (bars)
+        ceduo_text_format(&page->last->cells[1].text, "0\xe2\x80\x93%s", SIG_TRIMMED(end, 4));
     ceduo_page_scale(page, 1, 0, end);
     ceduo_page_trim(page);
 }

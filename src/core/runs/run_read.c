@@ -358,7 +358,7 @@ const double *ceduo_run_samples(const struct ceduo_run *run, size_t control, enu
         return run->weights;
     if (quantity == CEDUO_SAMPLE_STOP)
         return get_stops(run);
-    return control < run->controls ? get_samples(run, control, column[quantity]) : NULL;
+    return control < run->controls ? get_samples(run, control, (int)column[quantity]) : NULL;
 }
 
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t max)

@@ -70,7 +70,8 @@ FORCE_INLINE struct motion hop(const struct axes *a, double g, struct motion m, 
     real zero = splat(0), gs = g * a->s, vx = m.along * a->c - m.off * a->s;
     *t = 2 * m.off / (g * a->c);
     real q = m.q + (m.along - 0.5 * gs * *t) * *t;
-    *leaves = (greater_equal(q, a->length) & less(zero, vx)) | (greater_equal(zero, q) & less(vx, zero));
+    mask forward = less(zero, vx), back = less(vx, zero), beyond = greater_equal(q, a->length), before = greater_equal(zero, q);
+    *leaves = (beyond & forward) | (before & back);
     return (struct motion){.q = clamp(q, zero, a->length), .along = m.along - gs * *t, .off = -m.off};
 }
 
