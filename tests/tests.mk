@@ -35,6 +35,8 @@ CHANGES_csv := 2000
 CHANGES_set := 1000
 CHANGES_table := 500
 CHANGES_keys := 1000
+CHANGES_each := 500
+CHANGES_handle := 500
 SEEDS_scene := profiles/scenes/*.yaml
 
 # ---- goals that run tests ----
