@@ -26,10 +26,11 @@ UNIT := $(C_TESTS:tests/%.c=$(T)/%)
 tagged = $(shell grep -l '^..\? tags: .*\<$(1)\>' $(SCRIPTS) $(C_TESTS))
 taps = $(patsubst tests/%,$(T)/%.tap,$(patsubst %.c,%,$(1)))
 # Slow tests first, so that none runs alone at the end. OMIT: tags of tests that are omitted.
-CHECKED = $(filter-out $(foreach tag,$(OMIT) $(if $(FULL),,full),$(call tagged,$(tag))),$(call tagged,slow) $(SCRIPTS) $(C_TESTS))
+OMITTED = $(foreach tag,$(OMIT) $(if $(FULL),,full),$(call tagged,$(tag)))
+CHECKED = $(filter-out $(OMITTED),$(call tagged,slow) $(SCRIPTS) $(C_TESTS))
 
-# Random bytes for the readers and keys. `make check` uses the seeds and this number of fixed changes, check-all ten times this
-# number; in `make fuzz` libFuzzer changes them.
+# Random bytes for the readers, keys and the handle. `make check` uses the seeds, the inputs that libFuzzer found, and this number
+# of fixed changes of both, check-all ten times this number; in `make fuzz` libFuzzer changes them.
 FUZZERS := $(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 REPLAYS := $(FUZZERS:fuzz_%=$(T)/fuzz/replay_%)
 CHANGES_scene := 2000
@@ -99,7 +100,7 @@ $(REPLAYS): $(T)/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz
 	$(link) $(LIBS)
 
 $(REPLAYS:=.tap): $(T)/fuzz/replay_%.tap: $(T)/fuzz/replay_% FORCE
-	@tests/run $@ $< $* $(CHANGES_$*)$(if $(FULL),0) $(wildcard tests/fuzz/seeds/$*/*) $(SEEDS_$*)
+	@tests/run $@ $< $* $(CHANGES_$*)$(if $(FULL),0) $(wildcard tests/fuzz/seeds/$*/* tests/fuzz/found/$*/*) $(SEEDS_$*)
 
 $(FUZZERS:%=$(T)/fuzz/%): $(T)/fuzz/%: $(BUILD)/tests/fuzz/%.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
@@ -111,8 +112,8 @@ FUZZ_OPTIONS = -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1000 -m
 .PHONY: fuzz $(FUZZERS)
 $(FUZZERS): fuzz_%: $(T)/fuzz/fuzz_%
 	@mkdir -p $(T)/fuzz/corpus/$*
-	$< $(FUZZ_OPTIONS) $(foreach f,$(T)/fuzz/corpus/$* $(wildcard tests/fuzz/seeds/$*) $(dir $(SEEDS_$*)),$(call quoted,$(CURDIR)/$f)) \
-	    2>$<.log || { tail -40 $<.log; exit 1; }
+	$< $(FUZZ_OPTIONS) $(foreach f,$(T)/fuzz/corpus/$* $(wildcard tests/fuzz/seeds/$* tests/fuzz/found/$*) $(dir $(SEEDS_$*)), \
+	    $(call quoted,$(CURDIR)/$f)) 2>$<.log || { tail -40 $<.log; exit 1; }
 	@grep 'stat::number_of_executed_units\|cov:' $<.log | tail -2
 
 # Installs packages that a goal needs in addition to deps.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tags: uncounted unsanitized
-"""tests/all: a part of `make check-all` counts until a file that it reads changes. Runs it in trees with parts that only write."""
+"""tests/all: a part of `make check-all` counts until a file that it reads changes. The parts of these trees only write."""
 import os
 import shutil
 import signal
@@ -40,8 +40,9 @@ class Tree(Folder):
         return self
 
     def start(self, *named):
+        env = environment(MAKE="make -s", MAKEFLAGS=None, PARTS=" ".join(PARTS), MORE="fuzz")
         return subprocess.Popen(["tests/all", *named], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                start_new_session=True, env=environment(MAKE="make -s", MAKEFLAGS=None, PARTS=" ".join(PARTS), MORE="fuzz"))
+                                start_new_session=True, env=env)
 
     def run(self, *named):
         """Return exit status, the parts that ran, and the state of each part."""
