@@ -10,8 +10,8 @@ import time
 
 from harness import PATIENCE, ROOT, Folder, environment, expect, expect_equal, expect_in, run_all
 
-PARTS = "check", "sanitizers", "memory"  # of each kind: reads every file, the tests, the program
-MAKEFILE = """all-check all-sanitizers all-memory all-fuzz:
+PARTS = "check", "sanitizers", "scenes", "memory"  # read every file; scripts and translations; scripts; the program
+MAKEFILE = """all-check all-sanitizers all-scenes all-memory all-fuzz:
 	@echo $(@:all-%=%) >>build/ran
 	@if [ -e build/fail ]; then exit 1; fi
 	@if [ -e build/edit ]; then mv build/edit src/base/edited.c; fi
@@ -41,8 +41,8 @@ class Tree(Folder):
 
     def start(self, *named):
         env = environment(MAKE="make -s", MAKEFLAGS=None, PARTS=" ".join(PARTS), MORE="fuzz")
-        return subprocess.Popen(["tests/all", *named], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                start_new_session=True, env=env)
+        return subprocess.Popen(["tests/all", *named], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                text=True, start_new_session=True, env=env)
 
     def run(self, *named):
         """Return exit status, the parts that ran, and the state of each part."""
@@ -75,8 +75,8 @@ def test_changed_files(tree):
     tree.expect_run(PARTS, "first")
     tree.expect_run((), "unchanged")
     for name, parts in (("man/ceduo.1", PARTS[:1]), ("src/po/man/it.po", PARTS[:1]), ("src/po/it.po", PARTS[:2]),
-                        ("tests/cli/test_a.py", PARTS[:2]), ("tests/run", PARTS), ("src/base/a.c", PARTS),
-                        ("src/base/new.c", PARTS), ("new.md", PARTS[:1])):
+                        ("man/examples/a.py", PARTS[:2]), ("tests/cli/test_a.py", PARTS[:3]), ("tests/run", PARTS),
+                        ("src/base/a.c", PARTS), ("src/base/new.c", PARTS), ("new.md", PARTS[:1])):
         tree.write(name, "changed")
         tree.expect_run(parts, name)
     if tree.git:
@@ -93,7 +93,7 @@ def test_failed_part(tree):
     """A part that fails does not count; its log is printed"""
     tree.write("build/fail", "")
     status, ran, state = tree.run("memory")
-    expect_equal((status, ran), (1, PARTS[2:]))
+    expect_equal((status, ran), (1, ("memory",)))
     expect_in("MISSING", state["memory"])
     (tree.path / "build/fail").unlink()
     tree.expect_run(PARTS, "no failure")
@@ -111,7 +111,7 @@ def test_interrupted_part(tree):
     (tree.path / "build/wait").unlink()
     tree.write("build/edit", "changed")
     status, ran, state = tree.run("memory")
-    expect_equal((status, ran), (1, PARTS[2:]), state)
+    expect_equal((status, ran), (1, ("memory",)), state)
     (tree.path / "src/base/edited.c").unlink()
     tree.expect_run(PARTS, "as it was")
 
@@ -119,7 +119,7 @@ def test_interrupted_part(tree):
 @in_trees
 def test_states(tree):
     """The state of a part has commit, hash, date and seconds; an additional part runs only if it is named"""
-    expect_equal(tree.run("memory")[0], 1, "two parts are missing")
+    expect_equal(tree.run("memory")[0], 1, "the others are missing")
     for named, more in ((), "MISSING, "), (("fuzz",), "passed, "):
         status, _, state = tree.run(*named)
         expect_equal(status, 0, state)
