@@ -29,8 +29,8 @@ taps = $(patsubst tests/%,$(T)/%.tap,$(patsubst %.c,%,$(1)))
 OMITTED = $(foreach tag,$(OMIT) $(if $(FULL),,full),$(call tagged,$(tag)))
 CHECKED = $(filter-out $(OMITTED),$(call tagged,slow) $(SCRIPTS) $(C_TESTS))
 
-# Random bytes for the readers, keys and the handle. `make check` uses the seeds, the inputs that libFuzzer found, and this number
-# of fixed changes of both, check-all ten times this number; in `make fuzz` libFuzzer changes them.
+# Random bytes for the readers, keys and the handle. `make check` uses the seeds, inputs that libFuzzer found, and this number of
+# fixed changes of both, check-all ten times this number; in `make fuzz` libFuzzer changes them.
 FUZZERS := $(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 REPLAYS := $(FUZZERS:fuzz_%=$(T)/fuzz/replay_%)
 CHANGES_scene := 2000
