@@ -7,6 +7,8 @@
 #   threads     uses threads: `make check-all` repeats it with a sanitizer for them
 #   full        only in `make check-all`, or with FULL=1
 #   uncounted   not in `make coverage`
+#   unsanitized runs neither program nor library of this build: not repeated with sanitizers
+#   manual      also reads the manual or README: repeated with sanitizers in a part of its own
 
 CORES := $(shell nproc 2>/dev/null || echo 1)
 # These goals use every core without -j. Many tests mostly wait, so there is one more job than cores.
@@ -23,11 +25,12 @@ SCRIPTS := $(wildcard tests/cli/test_*.py tests/cli/test_*.sh tests/tui/test_*.p
 UNIT := $(C_TESTS:tests/%.c=$(T)/%)
 tagged = $(shell grep -l '^..\? tags: .*\<$(1)\>' $(SCRIPTS) $(C_TESTS))
 taps = $(patsubst tests/%,$(T)/%.tap,$(patsubst %.c,%,$(1)))
-# Slow tests first, so that none runs alone at the end.
-CHECKED = $(filter-out $(if $(FULL),,$(call tagged,full)),$(call tagged,slow) $(SCRIPTS) $(C_TESTS))
+# Slow tests first, so that none runs alone at the end. OMIT: tags of tests that are omitted.
+OMITTED = $(foreach tag,$(OMIT) $(if $(FULL),,full),$(call tagged,$(tag)))
+CHECKED = $(filter-out $(OMITTED),$(call tagged,slow) $(SCRIPTS) $(C_TESTS))
 
-# Random bytes for the readers and keys. `make check` uses the seeds and this number of fixed changes, check-all ten times this
-# number; in `make fuzz` libFuzzer changes them.
+# Random bytes for the readers, keys and the handle. `make check` uses the seeds, inputs that libFuzzer found, and this number of
+# fixed changes of both, check-all ten times this number; in `make fuzz` libFuzzer changes them.
 FUZZERS := $(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 REPLAYS := $(FUZZERS:fuzz_%=$(T)/fuzz/replay_%)
 CHANGES_scene := 2000
@@ -35,17 +38,20 @@ CHANGES_csv := 2000
 CHANGES_set := 1000
 CHANGES_table := 500
 CHANGES_keys := 1000
+CHANGES_each := 500
+CHANGES_handle := 500
 SEEDS_scene := profiles/scenes/*.yaml
 
 # ---- goals that run tests ----
 
-.PHONY: quick check check-brief check-threads check-scenes replay FORCE
+.PHONY: quick check check-brief check-threads check-manual check-scenes replay FORCE
 quick: all $(call taps,$(filter-out $(call tagged,slow),$(C_TESTS)) $(call tagged,quick))
 check: all $(call taps,$(CHECKED)) $(REPLAYS:=.tap)
 check-brief: all $(call taps,$(call tagged,brief))
 check-threads: all $(call taps,$(call tagged,threads))
+check-manual: all $(call taps,$(call tagged,manual))
 check-scenes: all $(T)/cli/test_random_scenes.py.tap
-quick check check-brief check-threads check-scenes: # the last line is: N passed, N failed
+quick check check-brief check-threads check-manual check-scenes: # the last line is: N passed, N failed
 	@tests/summary $(filter %.tap,$^)
 
 # ---- tests of C: one program per folder, which runs the test file named like the program ----
@@ -94,7 +100,7 @@ $(REPLAYS): $(T)/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz
 	$(link) $(LIBS)
 
 $(REPLAYS:=.tap): $(T)/fuzz/replay_%.tap: $(T)/fuzz/replay_% FORCE
-	@tests/run $@ $< $* $(CHANGES_$*)$(if $(FULL),0) $(wildcard tests/fuzz/seeds/$*/*) $(SEEDS_$*)
+	@tests/run $@ $< $* $(CHANGES_$*)$(if $(FULL),0) $(wildcard tests/fuzz/seeds/$*/* tests/fuzz/found/$*/*) $(SEEDS_$*)
 
 $(FUZZERS:%=$(T)/fuzz/%): $(T)/fuzz/%: $(BUILD)/tests/fuzz/%.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
@@ -106,8 +112,8 @@ FUZZ_OPTIONS = -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1000 -m
 .PHONY: fuzz $(FUZZERS)
 $(FUZZERS): fuzz_%: $(T)/fuzz/fuzz_%
 	@mkdir -p $(T)/fuzz/corpus/$*
-	$< $(FUZZ_OPTIONS) $(foreach f,$(T)/fuzz/corpus/$* $(wildcard tests/fuzz/seeds/$*) $(dir $(SEEDS_$*)),$(call quoted,$(CURDIR)/$f)) \
-	    2>$<.log || { tail -40 $<.log; exit 1; }
+	$< $(FUZZ_OPTIONS) $(foreach f,$(T)/fuzz/corpus/$* $(wildcard tests/fuzz/seeds/$* tests/fuzz/found/$*) $(dir $(SEEDS_$*)), \
+	    $(call quoted,$(CURDIR)/$f)) 2>$<.log || { tail -40 $<.log; exit 1; }
 	@grep 'stat::number_of_executed_units\|cov:' $<.log | tail -2
 
 # Installs packages that a goal needs in addition to deps.
@@ -153,19 +159,22 @@ net: all $(TABLES) $(COMPLETION)
 
 # ---- check-all ----
 
-# Takes two and a half hours on two cores. Each part leaves a log with the name of the commit; parts that have passed on this
-# commit are skipped. ONLY='threads memory': only these.
-PARTS_OF_ALL := check sanitizers scenes clang threads memory arm slurm dist deb lint
-.PHONY: check-all $(PARTS_OF_ALL:%=all-%)
+# Takes two and a half hours on two cores. Parts that have passed are skipped until a file that they read changes: tests/all.
+# ONLY='threads memory': only these. MORE: parts that run only if ONLY names them.
+PARTS_OF_ALL := check sanitizers manual scenes clang threads memory arm slurm dist deb lint
+MORE_OF_ALL := coverage fuzz stress
+.PHONY: check-all $(PARTS_OF_ALL:%=all-%) $(MORE_OF_ALL:%=all-%)
 check-all:
 	$(call need,$(DEBIAN_FUZZ) gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user valgrind slurmctld slurmd slurm-client munge \
 	    chromium tidy poppler-utils)
-	@+MAKE="$(MAKE) --no-print-directory" PARTS="$(PARTS_OF_ALL)" tests/all $(ONLY)
+	@+MAKE="$(MAKE) --no-print-directory" PARTS="$(PARTS_OF_ALL)" MORE="$(MORE_OF_ALL)" tests/all $(ONLY)
 
 all-check:
 	@+$(MAKE) --no-print-directory FULL=1 check
 all-sanitizers:
-	@+$(MAKE) --no-print-directory FULL=1 TEST_SECONDS=20000 VARIANT=asan check
+	@+$(MAKE) --no-print-directory FULL=1 TEST_SECONDS=20000 VARIANT=asan OMIT='manual unsanitized' check
+all-manual:
+	@+$(MAKE) --no-print-directory FULL=1 TEST_SECONDS=20000 VARIANT=asan check-manual
 all-scenes:
 	@+$(MAKE) --no-print-directory SCENES=10000 TEST_SECONDS=20000 VARIANT=asan check-scenes
 all-clang: # its sanitizer reports offsets to null pointers, gcc's does not
@@ -173,6 +182,11 @@ all-clang: # its sanitizer reports offsets to null pointers, gcc's does not
 all-threads:
 	@+$(MAKE) --no-print-directory VARIANT=tsan check-threads
 all-lint: lint
+all-coverage: coverage
+all-fuzz:
+	@+$(MAKE) --no-print-directory FUZZ_SECONDS=600 fuzz
+all-stress:
+	@+$(MAKE) --no-print-directory STRESS=10000000 stress
 
 # Runs these under valgrind: every scene as a batch, a picture, a report, years, uncertainty, a search, and the terminal program
 # with a script. Uncertainty takes most of the time, and is computed for two scenes.
@@ -188,6 +202,7 @@ define IN_VALGRIND
 --script $(BUILD)/valgrind.keys paper-site
 endef
 all-memory: export IN_VALGRIND := $(IN_VALGRIND)
+all-memory: export LC_ALL := C.UTF-8
 all-memory: all
 	printf '%s\n' 'key 2 Down Down Enter' 'type 0.5' 'key Enter u Ctrl-R' 'resize 120 40' 'key 1 a 3 4 5 6 ? Esc' 'dump -' \
 	    >$(BUILD)/valgrind.keys

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: quick uncounted
+# tags: quick uncounted unsanitized
 """What C programs rely on: names, functions and sizes of the public headers.
 
 After a struct has changed: raise SONAME in the Makefile, then write tests/abi.txt with --write."""

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: quick
+# tags: quick unsanitized
 """Plain English in comments, names and messages: tests/language.txt lists the counted patterns.
 
 With --show WORD: prints each match of the patterns that contain the word.

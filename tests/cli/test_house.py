@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: quick uncounted
+# tags: quick uncounted unsanitized
 """The rooms of the source: allowed dependencies, outside functions of the library, and its exports."""
 import os
 import re

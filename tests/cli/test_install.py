@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: slow
+# tags: slow manual
 """Installing to a folder, using the installed program, uninstalling; completion in the shell."""
 import os
 import pty

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: brief
+# tags: brief manual
 """Text in the language of the locale or of --language; equal data in each."""
 import csv
 import functools

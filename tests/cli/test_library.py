@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: uncounted
+# tags: uncounted manual
 """ceduo(3): the example of the page compiles and runs with the installed library and headers."""
 import json
 import os

@@ -1,5 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: manual
 # The manual is well-formed, its tables are those of the program, and it has every option.
 cd "$(dirname "$0")/../.." || exit 1
 dir=$(mktemp -d)

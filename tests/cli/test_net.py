@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: manual
 """make net: it reports exactly the cases in which two programs differ."""
 import os
 import re

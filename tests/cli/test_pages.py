@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: slow
+# tags: slow manual
 """The manual except ceduo-workflows(7) and ceduo(3): every command of a page runs, in order, and prints the shown text; every
 shown file is read. `test_pages.py --write` updates the pages.
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: manual
 """--report: one well-formed HTML file without external resources, reproducible."""
 import html
 import json

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: unsanitized
 """Tests run in a defined environment on any machine; CI ends with a summary line."""
 import os
 import shutil

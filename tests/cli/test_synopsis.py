@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: manual
 """The manual against the program: the forms of ceduo(1) have exactly the options that fit them."""
 import re
 import sys

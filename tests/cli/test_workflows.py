@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: slow uncounted
+# tags: slow uncounted manual
 """ceduo-workflows(7): each way runs in an empty folder and has the results that the page states.
 
 With --readme: updates the page and the screens in README.md.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fuzz CSV files: a profile that is read has increasing x, and a refused one has a message. A survey that is read makes a valid
- * stand. */
+ * stand. The length of the input selects the layer of a profile and the answers to the questions of a survey. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,12 +39,13 @@ static void check_stand(struct arena *arena, const struct survey_file *survey, s
     ceduo_text_free(&yaml);
 }
 
-static void check_survey(const char *path)
+static void check_survey(const char *path, int answer)
 {
+    struct survey_answers answers = {.given = {answer, answer, answer, answer}};
     struct arena arena = {0};
     struct problems problems = {0};
     struct survey_file survey;
-    if (ceduo_survey_read(&survey, &arena, path, NULL, &problems))
+    if (ceduo_survey_read(&survey, &arena, path, &answers, &problems))
         check_stand(&arena, &survey, &problems);
     else if (problems.met == 0)
         abort();
@@ -62,7 +63,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct arena arena = {0};
     struct problems problems = {0};
     struct points points = {0};
-    if (ceduo_csv_slope_read(&arena, path, NULL, &points, &problems)) {
+    if (ceduo_csv_slope_read(&arena, path, size % 4 == 1 ? "1" : NULL, &points, &problems)) {
         for (size_t i = 0; i < points.n; i++)
             if (!isfinite(points.x[i]) || !isfinite(points.z[i]) || (i > 0 && !(points.x[i] > points.x[i - 1])))
                 abort();
@@ -71,7 +72,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     ceduo_problems_free(&problems);
     ceduo_arena_free(&arena);
-    check_survey(path);
+    check_survey(path, (int)(size % 3)); /* 0: none */
     close(fd);
     return 0;
 }

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: slow full
+# tags: slow full unsanitized
 # The same bits with 1, 2 and 16 threads, at -O2 as in the library, at -O3, and with clang if installed. Compiles without forced
 # inlining, in a quarter of the time; with FULL in the environment, with forced inlining, and at -O0 as well.
 cd "$(dirname "$0")/../.." || exit 1

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tags: slow full
+# tags: slow full unsanitized
 # No result depends on a numerical constant: with half and with twice the value of all of them, each statistic stays within its
 # error. Objects that use a constant are compiled with the other value and linked before the built library.
 #

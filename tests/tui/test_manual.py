@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
+# tags: manual
 """The manual ceduo-terminal(7) and the screen: the smallest window, the heads of columns, the keys."""
 import re
 import sys
