@@ -1,8 +1,68 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "language.h"
 
-#include <locale.h>
+#include <stdint.h>
 #include <string.h>
+
+/* ---- the catalogue ---- */
+
+/* A catalogue begins with a head. Its two tables have the length and the offset of each English text, sorted, and of its
+ * translation. A text ends with NUL; a second form for plurals follows after that. */
+#define CATALOGUE_MAGIC 0x950412deU
+struct head {
+    uint32_t magic, revision, count, english, translated; /* the last two: offsets of the tables */
+};
+struct entry {
+    uint32_t length, offset;
+};
+
+static const char *catalogue;
+static struct head head; /* of the catalogue; count 0: text stays English */
+
+static struct entry get_entry(uint32_t table, uint32_t i)
+{
+    struct entry e;
+    memcpy(&e, catalogue + table + i * sizeof e, sizeof e);
+    return e;
+}
+
+static bool table_is_valid(uint32_t table, uint32_t count, size_t size)
+{
+    bool good = table <= size && count <= (size - table) / sizeof(struct entry);
+    for (uint32_t i = 0; good && i < count; i++) {
+        const struct entry e = get_entry(table, i);
+        good = e.offset < size && e.length < size - e.offset && catalogue[e.offset + e.length] == '\0';
+    }
+    return good;
+}
+
+bool ceduo_language_use(const char *bytes, size_t size)
+{
+    catalogue = bytes;
+    head = (struct head){0};
+    if (bytes && size >= sizeof head)
+        memcpy(&head, bytes, sizeof head);
+    bool good = bytes && head.magic == CATALOGUE_MAGIC && table_is_valid(head.english, head.count, size) &&
+                table_is_valid(head.translated, head.count, size);
+    if (!good)
+        head = (struct head){0};
+    return good;
+}
+
+/* Return the translation of a text, or the text. */
+static const char *find_translation(const char *text)
+{
+    for (uint32_t lo = 0, hi = head.count; lo < hi;) {
+        const uint32_t middle = lo + (hi - lo) / 2;
+        const int order = strcmp(text, catalogue + get_entry(head.english, middle).offset);
+        if (order == 0)
+            return catalogue + get_entry(head.translated, middle).offset;
+        *(order < 0 ? &hi : &lo) = middle + (order > 0);
+    }
+    return text;
+}
+
+/* ---- texts ---- */
 
 static _Thread_local bool data_language;
 
@@ -13,7 +73,8 @@ void ceduo_language_set_data(bool on)
 
 const char *ceduo_translate(const char *string)
 {
-    return data_language || !string[0] ? string : gettext(string); /* the translation of "" is the header of the catalogue */
+    /* the translation of "" is the header of the catalogue */
+    return data_language || !string[0] ? string : find_translation(string);
 }
 
 const char *ceduo_in_language(const char *english, const char *italian)
@@ -23,7 +84,10 @@ const char *ceduo_in_language(const char *english, const char *italian)
 
 const char *ceduo_translate_n(const char *one, const char *many, unsigned long n)
 {
-    return data_language ? n == 1 ? one : many : dcngettext(NULL, one, many, n, LC_MESSAGES);
+    const char *found = data_language ? one : find_translation(one);
+    if (found == one)
+        return n == 1 ? one : many;
+    return n == 1 ? found : found + strlen(found) + 1; /* Italian has the plural of English */
 }
 
 const char *ceduo_translate_in(const char *marked)

@@ -29,6 +29,8 @@ def test_environment():
                         ({"LC_ALL": "it_IT.UTF-8", "LANGUAGE": "en"}, ENGLISH),
                         ({"LC_ALL": "it_IT.UTF-8", "LANGUAGE": "en_GB:it"}, ITALIAN),
                         ({**none, "LANG": "it_IT.UTF-8", "LC_MESSAGES": "C"}, ENGLISH),
+                        ({**none, "LANG": "C.UTF-8", "LANGUAGE": "it"}, ITALIAN),
+                        ({**none, "LANG": "de_DE.UTF-8", "LANGUAGE": "de:it_IT"}, ITALIAN),
                         ({"LC_ALL": "C", "LANG": "it_IT.UTF-8"}, ENGLISH), ({"LC_ALL": "italic.UTF-8"}, ENGLISH),
                         ({"LC_ALL": "xx_YY.UTF-8"}, ENGLISH)):
         expect_in(wanted, good("--help", env=env).out, env)
