@@ -17,7 +17,7 @@ struct entry {
 };
 
 static const char *catalogue;
-static struct head head; /* of the catalogue; count 0: text stays English */
+static struct head head; /* count 0: text stays English */
 
 static struct entry get_entry(uint32_t table, uint32_t i)
 {

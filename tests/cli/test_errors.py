@@ -384,7 +384,7 @@ CASES = {
         MATERIALS, "materials: [{from_m: 0, to_m: 40, material: talus}, {from_m: @@50, to_m: 100, material: talus}]\n"),
     "40 is before the end of the profile, 100; extend the last row": sl(MATERIALS, "materials: [{from_m: 0, to_m: @@40, material: talus}]\n"),
     "the end (-1) must lie beyond the start (0)": sl(MATERIALS, "materials: [{from_m: 0, to_m: @@-1, material: talus}]\n"),
-    "the first line must name the columns 'distance' and 'elevation'": csv("a,64\n100,0\n", "line.csv:1:1: "),
+    "the line of heads must name the columns 'distance' and 'elevation'": csv("a,64\n100,0\n", "line.csv:1:1: "),
     "too few columns": csv("distance,elevation\n0,64\n50\n100,0\n", "line.csv:3:1: "),
     "a value is missing; remove the line": csv("distance,elevation\n0,64\n50,\n100,0\n", "line.csv:3:4: "),
     "the decimal sign of '1.000,5' is not the dot of line 2; use one sign in the whole table": csv("distance;elevation\n0;6.4\n1.000,5;0\n", "line.csv:3:1: "),

@@ -95,7 +95,7 @@ def test_first_characters():
         path = f.write("passwd", PRIVATE["passwd"])
         done = ceduo("--check", f.write("s.yaml", scene(slope={"csv": str(path)})))
         told, line, caret = done.err.splitlines()
-        expect_equal(told, f"{path}:1:1: the first line must name the columns 'distance' and 'elevation'")
+        expect_equal(told, f"{path}:1:1: the line of heads must name the columns 'distance' and 'elevation'")
         expect_equal((line, caret), (f"  {FIRST[:20]}… {WHY}", "  ^"))
         done = ceduo("--check", f.write("s.yaml", scene(uncertainty={"draws": str(path)})))
         expect_in(f"the column '{FIRST[:20]}' is not a value", done.err)
@@ -109,7 +109,7 @@ def test_first_characters():
         done = ceduo("--check", f.write("s.yaml", scene(observed={"stops": {"csv": str(path), "column": FIRST}})))
         expect_equal(done.err.splitlines()[0], f"{path}:2:1: '…' is not a number")
         for column in ("'plot'", "'kind', or columns 'shoots', 'standards', 'trees' with numbers of stems", "'dbh_cm' or 'circumference_cm'"):
-            expect_in(f"{path}:1:1: the first line must name the column {column}\n", ceduo("--survey", path).err)
+            expect_in(f"{path}:1:1: the line of heads must name the column {column}\n", ceduo("--survey", path).err)
         expect_in(": 'ceduo' is missing: scene/1", ceduo("--check", f.write("keys.yaml", PRIVATE["keys.yaml"])).err)
 
 
