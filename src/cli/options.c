@@ -184,8 +184,10 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
     bool good = read_numbers(value, ":", 2, 3, parts) && is_whole(parts[0]) && is_whole(parts[1]) && is_whole(parts[2]);
     if (!good)
         return report_form(row, value, "A:B[:STEP]", "0:25");
-    if (parts[0] < 0 || parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1 ||
-        (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MAX)
+    if (parts[1] < parts[0])
+        return ceduo_usage_error(row->name, _("%s: the last year is before the first; write %.0f:%.0f"), value, parts[1],
+                                 parts[0]);
+    if (parts[0] < 0 || parts[1] > 100000 || parts[2] < 1 || (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MAX)
         return ceduo_usage_error(row->name, _("%s: give at most %d years between 0 (the stand in the file) and 100000"), value,
                                  CEDUO_YEARS_MAX);
     a->window = (struct ceduo_window){

@@ -274,7 +274,8 @@ static bool find_headless(struct reader *r, struct csv_place begin)
             csv->cells_count);
     }
     csv->headless = false;
-    return ceduo_problem(r->problems, csv->source, 1, 1, _("the line of heads must name the columns 'distance' and 'elevation'"));
+    return ceduo_problem(r->problems, csv->source, 1, 1,
+                         _("the line of heads must name the columns 'distance' and 'elevation'"));
 }
 
 /* Report a head with a unit other than metres. */
