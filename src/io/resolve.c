@@ -170,7 +170,7 @@ static const struct node *load_reference(struct resolver *r, const struct object
         }
     if (end && strcmp(object->folder, "stands") == 0 && strcasecmp(end, ".csv") == 0) {
         ceduo_problem_at(r->problems, ceduo_node_place(node, node->key),
-                         _("'%s' is a table; convert a survey to a stand with ceduo --survey %s -o stand.yaml"), node->text,
+                         _("'%s' is a table; convert a survey to a stand with ceduo --survey %s -o FILE.yaml"), node->text,
                          node->text);
         return NULL;
     }

@@ -321,7 +321,7 @@ CASES = {
     "unknown key; known here: ...": sc("{x_m: 90}", "{x_m: 90, @@qqqqqqqqqqqqqqq: 1}"),
     "'rn' is missing: normal restitution Rn": sl("  - {rn: 0.35, ", "  - @@{"),
     "'0.8 m' is not a number; write it without its unit, in the unit of the key": sl("rt: 0.87", "rt: @@0.8 m"),
-    "'s.csv' is a table; convert a survey to a stand with ceduo --survey s.csv -o stand.yaml":
+    "'s.csv' is a table; convert a survey to a stand with ceduo --survey s.csv -o FILE.yaml":
         sc("to_m: 40\n    stand: stand.yaml", "to_m: 40\n    stand: @@s.csv"),
     "'0.8' is in quotes; write the number without them": sl("rt: 0.87", "rt: @@'0.8'"),
     "'0.8 m' is not a number": sc("diameter_m: 0.5", "diameter_m: @@0.8 m"),
