@@ -362,8 +362,7 @@ static void draw_position(struct app *app, const struct popup *p, bool top, cons
 /* Draw a frame in the middle of the screen, with the note in its first lines. Return the area below the note. */
 static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines, int note_lines)
 {
-    int width = app->width < 88 ? app->width : 84,
-        wanted = ceduo_app_count_lines(app, ceduo_text_string(&p->text), width - 4);
+    int width = app->width < 88 ? app->width : 84, wanted = ceduo_app_count_lines(app, ceduo_text_string(&p->text), width - 4);
     if (p->kind == POPUP_FIELDS) /* as high as the note; over a list the note changes with the cursor */
         note_lines = wanted < note_lines ? wanted : note_lines;
     note_lines = p->text.bytes || p->update_note ? note_lines : 0;
