@@ -3,15 +3,18 @@
 #include "popup.h"
 
 #include <assert.h>
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/language.h"
 #include "base/oom.h"
 #include "base/utf8.h"
+#include "io/file.h"
 #include "view/value_text.h"
 
 /* ---- creating ---- */
@@ -148,13 +151,31 @@ bool ceduo_popup_number(struct app *app, struct popup *p, size_t i, double *numb
     return true;
 }
 
-bool ceduo_popup_confirm_overwrite(struct app *app, struct popup *p)
+/* True if the scene is read from a file, such as its profile. */
+static bool is_read_file(const struct document *d, const char *path, bool without_scene)
+{
+    bool found = false;
+    for (const struct source *s = d->file.arena.sources; s && !found; s = s->before)
+        found =
+            s->path && ceduo_file_is_same(path, s->path) && !(without_scene && d->path && ceduo_file_is_same(s->path, d->path));
+    return found;
+}
+
+bool ceduo_popup_confirm_overwrite(struct app *app, struct popup *p, bool saves_scene)
 {
     struct line *line = &p->fields[0].line;
-    if (access(line->text, F_OK) != 0 || line->confirmed)
+    struct stat st;
+    if (stat(line->text, &st) != 0)
         return true;
+    if (S_ISDIR(st.st_mode))
+        ceduo_app_warn(app, "%s: %s", line->text, strerror(EISDIR));
+    else if (is_read_file(&app->document, line->text, saves_scene))
+        ceduo_app_warn(app, "%s", _("the scene is read from this file; choose another name"));
+    else if (line->confirmed)
+        return true;
+    else
+        ceduo_app_warn(app, "%s", _("the file exists; Enter again replaces it"));
     line->confirmed = true;
-    ceduo_app_warn(app, "%s", _("the file exists; Enter again replaces it"));
     return false;
 }
 

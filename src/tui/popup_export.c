@@ -108,8 +108,13 @@ static bool submit_export(struct app *app, struct popup *p)
 {
     const char *path = p->fields[0].line.text;
     enum export_kind kind = (enum export_kind)atoi(p->target);
+    const char *dot = strrchr(path, '.');
     LOCAL_TEXT(text);
-    if (!ceduo_popup_confirm_overwrite(app, p))
+    if (kind == EXPORT_REPORT && !(dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0))) {
+        ceduo_app_warn(app, _("'%s' does not end in .html or .htm"), path);
+        return false;
+    }
+    if (!ceduo_popup_confirm_overwrite(app, p, false))
         return false;
     append_export(app, kind, &text);
     bool good = text.bytes && ceduo_file_write(path, text.bytes, text.length);

@@ -64,7 +64,7 @@ static bool submit_save(struct app *app, struct popup *p)
         ceduo_app_warn(app, "%s", _("a name is needed"));
         return false;
     }
-    return (own || ceduo_popup_confirm_overwrite(app, p)) && save_to(app, path);
+    return (own || ceduo_popup_confirm_overwrite(app, p, true)) && save_to(app, path);
 }
 
 void ceduo_popup_offer_files(struct app *app, struct popup *p)
