@@ -457,7 +457,7 @@ static void bind_source(struct binder *b, const struct node *node)
     for (size_t i = 0; i < source.except_count; i++) {
         ceduo_text_format(&changed, i == 0 ? _("changed since: %s") : ", %s", source.except[i]);
         before = enter_key(b, source.except[i]);
-        add_note(b, N_("changed"), _("the source of the whole does not apply to this value"), NULL);
+        add_note(b, N_("changed"), _("the source of the other values does not apply"), NULL);
         leave_path(b, before);
     }
     const char *const texts[2] = {source.text, source.text_it};
