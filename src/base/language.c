@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "language.h"
 
+#include <errno.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -94,4 +95,42 @@ const char *ceduo_translate_in(const char *marked)
 {
     const char *found = ceduo_translate(marked), *context = strchr(marked, '\004');
     return found == marked && context ? context + 1 : found;
+}
+
+const char *ceduo_error_text(int error)
+{
+    switch (error) {
+    case ENOENT:
+        return _("No such file or directory");
+    case EACCES:
+        return _("Permission denied");
+    case EPERM:
+        return _("Operation not permitted");
+    case EISDIR:
+        return _("Is a directory");
+    case ENOTDIR:
+        return _("Not a directory");
+    case EEXIST:
+        return _("File exists");
+    case ENOSPC:
+        return _("No space left on device");
+    case EDQUOT:
+        return _("Disk quota exceeded");
+    case EFBIG:
+        return _("File too large");
+    case EROFS:
+        return _("Read-only file system");
+    case EIO:
+        return _("Input/output error");
+    case ENAMETOOLONG:
+        return _("File name too long");
+    case ELOOP:
+        return _("Too many levels of symbolic links");
+    case EBADF:
+        return _("Bad file descriptor");
+    case EMFILE:
+        return _("Too many open files");
+    default:
+        return strerror(error);
+    }
 }

@@ -29,6 +29,9 @@ bool ceduo_language_use(const char *bytes, size_t size);
 /* Return the text of a file in the language of the program. `italian` may be NULL. */
 const char *ceduo_in_language(const char *english, const char *italian);
 
+/* Return the text of an error of the system, as strerror(), which needs a locale to translate it. */
+const char *ceduo_error_text(int error);
+
 /* While on, text of this thread stays English, so that sentences in JSON and CSV do not depend on the language. */
 void ceduo_language_set_data(bool on);
 

@@ -168,7 +168,7 @@ bool ceduo_popup_confirm_overwrite(struct app *app, struct popup *p, bool saves_
     if (stat(line->text, &st) != 0)
         return true;
     if (S_ISDIR(st.st_mode))
-        ceduo_app_warn(app, "%s: %s", line->text, strerror(EISDIR));
+        ceduo_app_warn(app, "%s: %s", line->text, ceduo_error_text(EISDIR));
     else if (is_read_file(&app->document, line->text, saves_scene))
         ceduo_app_warn(app, "%s", _("the scene is read from this file; choose another name"));
     else if (line->confirmed)

@@ -121,7 +121,7 @@ static bool submit_export(struct app *app, struct popup *p)
     if (!text.bytes)
         ceduo_app_warn(app, "%s", _("nothing is computed yet"));
     else if (!good)
-        ceduo_app_warn(app, "%s: %s", path, strerror(errno));
+        ceduo_app_warn(app, "%s: %s", path, ceduo_error_text(errno));
     else
         ceduo_app_show_message(app,
                                kind == EXPORT_REPORT && !is_uncertainty_done(app)

@@ -44,6 +44,13 @@ def test_option():
     expect_equal(ceduo("--language", "fr").status, USAGE)
 
 
+def test_system_errors():
+    """Errors of the system are Italian without a locale of the machine"""
+    expect_in("none.yaml: non si può leggere: file o cartella inesistente", ceduo("--language", "it", "-b", "none.yaml").err)
+    expect_equal(ceduo("--language", "it", "-b", "-o", "/dev/full", "-n", 5, "-s", "uncertainty=none", PAPER).err,
+                 "/dev/full: spazio esaurito sul disco\n")
+
+
 def test_without_translation():
     """A program without its installation has only the installed translation: without it the text is English"""
     installed = re.search(rb"\0(/[^\0]*/locale)\0", Path(CEDUO).read_bytes())
