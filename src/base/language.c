@@ -50,14 +50,18 @@ bool ceduo_language_use(const char *bytes, size_t size)
     return good;
 }
 
-/* Return the translation of a text, or the text. */
-static const char *find_translation(const char *text)
+/* Return the translation of a text, or the text. `length` is set to that of all forms of the translation; may be NULL. */
+static const char *find_translation(const char *text, size_t *length)
 {
     for (uint32_t lo = 0, hi = head.count; lo < hi;) {
         const uint32_t middle = lo + (hi - lo) / 2;
         const int order = strcmp(text, catalogue + get_entry(head.english, middle).offset);
-        if (order == 0)
-            return catalogue + get_entry(head.translated, middle).offset;
+        if (order == 0) {
+            const struct entry found = get_entry(head.translated, middle);
+            if (length)
+                *length = found.length;
+            return catalogue + found.offset;
+        }
         *(order < 0 ? &hi : &lo) = middle + (order > 0);
     }
     return text;
@@ -75,7 +79,7 @@ void ceduo_language_set_data(bool on)
 const char *ceduo_translate(const char *string)
 {
     /* the translation of "" is the header of the catalogue */
-    return data_language || !string[0] ? string : find_translation(string);
+    return data_language || !string[0] ? string : find_translation(string, NULL);
 }
 
 const char *ceduo_in_language(const char *english, const char *italian)
@@ -85,10 +89,12 @@ const char *ceduo_in_language(const char *english, const char *italian)
 
 const char *ceduo_translate_n(const char *one, const char *many, unsigned long n)
 {
-    const char *found = data_language ? one : find_translation(one);
+    size_t length = 0;
+    const char *found = data_language ? one : find_translation(one, &length);
     if (found == one)
         return n == 1 ? one : many;
-    return n == 1 ? found : found + strlen(found) + 1; /* Italian has the plural of English */
+    const size_t second = strlen(found) + 1; /* Italian has the plural of English */
+    return n == 1 || second > length ? found : found + second;
 }
 
 const char *ceduo_translate_in(const char *marked)

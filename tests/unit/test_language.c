@@ -44,6 +44,7 @@ TEST(a_catalogue_translates)
     assert_string_equal(ngettext("%d rock", "%d rocks", 1), "%d masso");
     assert_string_equal(ngettext("%d rock", "%d rocks", 0), "%d massi");
     assert_string_equal(P_("head", "word"), "parola");
+    assert_string_equal(ngettext("head\004word", "words", 2), "parola"); /* has one form */
     assert_string_equal(_("between"), "between");
     assert_string_equal(ceduo_in_language("english", "italian"), "italian");
     ceduo_language_use(NULL, 0);
