@@ -21,7 +21,7 @@
 
 # ---- a fresh machine ----
 
-DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc gettext po4a pkgconf python3 \
+DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev man-db mandoc gettext po4a pkgconf python3 \
 	tmux zsh locales parallel clang-format jq python3-jsonschema snakemake gdal-bin python3-gdal python3-numpy
 
 .PHONY: deps

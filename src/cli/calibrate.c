@@ -159,7 +159,7 @@ static enum exit_status write_scene(const struct fit_job *j, const struct ceduo_
         }
     }
     if (failed)
-        ceduo_print_message(failed, strerror(errno));
+        ceduo_print_message(failed, ceduo_error_text(errno));
     ceduo_file_abort(&draws);
     ceduo_file_abort(&file);
     return status;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "messages.h"
 
+#include <fcntl.h>
 #include <langinfo.h>
 #include <limits.h>
 #include <locale.h>
@@ -10,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/language.h"
@@ -146,13 +149,9 @@ void ceduo_interrupt_release(void)
 
 /* ---- the language ---- */
 
-/* gettext() translates text. Its language is LANGUAGE, or that of the locale; it does nothing in the locale C. If the machine
- * lacks the locale of the language, any other locale works with LANGUAGE. */
 #ifndef CEDUO_LOCALEDIR
 #define CEDUO_LOCALEDIR "/usr/local/share/locale"
 #endif
-
-#define DOMAIN "ceduo"
 
 /* Return the first of LC_ALL, the category and LANG that is set; "": none. */
 static const char *get_locale(const char *category)
@@ -166,50 +165,47 @@ static const char *get_locale(const char *category)
     return "";
 }
 
-/* ---- where translations are ---- */
-
-/* Search translations relative to the program, built or installed, then in the folder of the installation. */
-static void bind_domain(void)
+/* Search the translation relative to the program, built or installed, then in the folder of the installation. Without it text
+ * stays English. */
+static void load_translation(void)
 {
-    static const char *const near[] = {"locale", "build/release/locale", "../locale", "../share/locale"};
-    char self[PATH_MAX], folder[PATH_MAX + 32];
+    static const char *const folders[] = {"locale", "build/release/locale", "../locale", "../share/locale", CEDUO_LOCALEDIR};
+    char self[PATH_MAX], path[2 * PATH_MAX];
     ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
     self[n > 0 ? n : 0] = '\0';
     char *slash = strrchr(self, '/');
-    const char *found = CEDUO_LOCALEDIR;
-    for (size_t i = 0; slash && i < sizeof near / sizeof near[0]; i++) {
-        char path[sizeof folder + 64];
-        snprintf(folder, sizeof folder, "%.*s/%s", (int)(slash - self), self, near[i]);
-        snprintf(path, sizeof path, "%s/it/LC_MESSAGES/" DOMAIN ".mo", folder);
-        if (access(path, R_OK) == 0) {
-            found = folder;
-            break;
+    const int length = slash ? (int)(slash + 1 - self) : 0;
+    bool found = false;
+    for (size_t i = 0; !found && i < sizeof folders / sizeof folders[0]; i++) {
+        const bool is_absolute = folders[i][0] == '/';
+        snprintf(path, sizeof path, "%.*s%s/it/LC_MESSAGES/ceduo.mo", is_absolute ? 0 : length, self, folders[i]);
+        const int fd = is_absolute || slash ? open(path, O_RDONLY | O_CLOEXEC) : -1;
+        struct stat st;
+        if (fd >= 0 && fstat(fd, &st) == 0 && st.st_size > 0) {
+            const char *bytes = mmap(NULL, (size_t)st.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
+            found = bytes != MAP_FAILED && ceduo_language_use(bytes, (size_t)st.st_size);
         }
+        if (fd >= 0)
+            close(fd);
     }
-    bindtextdomain(DOMAIN, found);
-    bind_textdomain_codeset(DOMAIN, "UTF-8"); /* ceduo_fit_charset() converts it for the terminal */
-    textdomain(DOMAIN);
-}
-
-/* ---- which one ---- */
-
-/* Some versions of libc treat C.UTF-8 as C; then use another locale, if there is one. */
-static void use_translation(const char *language)
-{
-    static const char *const locales[] = {"it_IT.UTF-8", "C.UTF-8", "C.utf8", "en_US.UTF-8", "en_GB.UTF-8", "it_IT"};
-    setenv("LANGUAGE", language, 1);
-    setlocale(LC_MESSAGES, "");
-    /* the empty string has a translation, the header, if a translation is loaded */
-    for (size_t i = 0; !dgettext(DOMAIN, "")[0] && i < sizeof locales / sizeof locales[0]; i++)
-        setlocale(LC_MESSAGES, locales[i]);
 }
 
 void ceduo_language_set(const char *language)
 {
-    if (strcmp(language, "en") == 0)
+    if (strcmp(language, "en") == 0) {
+        ceduo_language_use(NULL, 0);
         setlocale(LC_MESSAGES, "C");
-    else
-        use_translation(language);
+    } else {
+        load_translation();
+        setenv("LANGUAGE", language, 1); /* for messages of the system */
+        setlocale(LC_MESSAGES, "");
+    }
+}
+
+/* True if the name of a locale, or an item of LANGUAGE, is Italian: "it_IT.UTF-8@euro", but not "italic". */
+static bool is_italian(const char *name)
+{
+    return strncmp(name, "it", 2) == 0 && strchr("_.@:", name[2]);
 }
 
 void ceduo_language_start(void)
@@ -219,8 +215,14 @@ void ceduo_language_start(void)
     bool utf8 = dot && (strncasecmp(dot, ".utf-8", 6) == 0 || strncasecmp(dot, ".utf8", 5) == 0);
     if (!setlocale(LC_CTYPE, "") && utf8)
         setlocale(LC_CTYPE, "C.UTF-8");
-    bind_domain();
-    bool italian = strncmp(messages, "it", 2) == 0 && strchr("_.@", messages[2]); /* "it_IT.UTF-8@euro", but not "italic" */
-    if (!setlocale(LC_MESSAGES, "") && italian)
-        use_translation(language && language[0] ? language : "it");
+    setlocale(LC_MESSAGES, "");
+    if (!messages[0] || strcmp(messages, "C") == 0 || strcmp(messages, "POSIX") == 0)
+        return;
+    bool italian = false;
+    for (const char *item = language && language[0] ? language : messages; item && !italian; item = strchr(item, ':')) {
+        item += *item == ':';
+        italian = is_italian(item);
+    }
+    if (italian)
+        load_translation();
 }

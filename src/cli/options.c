@@ -184,8 +184,10 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
     bool good = read_numbers(value, ":", 2, 3, parts) && is_whole(parts[0]) && is_whole(parts[1]) && is_whole(parts[2]);
     if (!good)
         return report_form(row, value, "A:B[:STEP]", "0:25");
-    if (parts[0] < 0 || parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1 ||
-        (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MAX)
+    if (parts[1] < parts[0])
+        return ceduo_usage_error(row->name, _("%s: the last year is before the first; write %.0f:%.0f"), value, parts[1],
+                                 parts[0]);
+    if (parts[0] < 0 || parts[1] > 100000 || parts[2] < 1 || (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MAX)
         return ceduo_usage_error(row->name, _("%s: give at most %d years between 0 (the stand in the file) and 100000"), value,
                                  CEDUO_YEARS_MAX);
     a->window = (struct ceduo_window){
@@ -321,7 +323,8 @@ static const struct option_row rows[] = {
     {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, M_CHECK | M_PAGE | M_SURVEY, NEEDS_GOAL,
      .help = N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_FIND,
-     .help = N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
+     .help = N_("adc, free-run (at most the light's limit), energy (mean kJ), exceed (share, 0.05), arrive (share), "
+                "worst-exceed or worst-arrive (the worst of the years ahead)")},
     {"sure", 0, "SHARE", set_share, MEMBER(sure), MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_FIND,
      .help = N_("with --find: also find the value that reaches the goal in this share of plausible cases, such as 0.9"),
      .hi = 1},
@@ -338,8 +341,8 @@ static const struct option_row rows[] = {
                 "with the fitted values")},
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, M_CHECK | M_FIND | M_FIT | M_PAGE | M_SURVEY,
      .help = N_(
-         "print a picture: profile, energy, height, histogram, rotation, years, stand, compare, ahead, tradeoff, uncertainty "
-         "or hazard")},
+         "print a picture: profile, energy, height, histogram, rotation, years, stand, compare, ahead, tradeoff, uncertainty, "
+         "hazard or fence")},
     {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_PLOT,
      .help = N_("size of a picture in columns and lines (80x24)")},
     {"charset", 0, "braille|block|ascii", set_word, MEMBER(charset), MODE_TERMINAL, M_CHECK | M_SURVEY, NEEDS_PICTURE,
@@ -393,6 +396,7 @@ void ceduo_arguments_help(struct text *text)
     ceduo_text_append(text, _("ceduo: does this coppice stop the rocks?\n\n"
                               "usage: ceduo [SCENE.yaml]\n"
                               "       ceduo --batch [OPTION...] SCENE.yaml...\n"
+                              "       ceduo --report PAGE.html [OPTION...] SCENE.yaml...\n"
                               "       ceduo --plot WHAT [OPTION...] SCENE.yaml...\n"
                               "       ceduo --check SCENE.yaml...\n"
                               "       ceduo --survey PLOTS.csv [-o STAND.yaml]\n"
@@ -412,7 +416,7 @@ void ceduo_arguments_help(struct text *text)
     }
     ceduo_text_append(text, _("\nexample: ceduo --batch -s 'forest[0].stand.stools.per_ha=2000' paper-site\n"
                               "exit status: 0 done, 1 run failed, 2 usage, 3 bad input, 4 output failed;\n"
-                              "see man ceduo\n"));
+                              "see man ceduo; step by step: man ceduo-workflows\n"));
 }
 
 /* ---- checks ---- */

@@ -15,7 +15,7 @@ enum exit_status ceduo_output_write(const struct arguments *a, const struct text
     if (a->output ? ceduo_file_write(a->output, bytes, text->length)
                   : ceduo_file_write_all(STDOUT_FILENO, bytes, text->length, ceduo_interrupt_flag()))
         return EXIT_DONE;
-    ceduo_print_message(a->output ? a->output : _("standard output"), strerror(errno));
+    ceduo_print_message(a->output ? a->output : _("standard output"), ceduo_error_text(errno));
     return EXIT_OUTPUT;
 }
 
@@ -32,7 +32,7 @@ bool ceduo_output_check(const struct arguments *a)
     LOCAL_ARENA(arena);
     bool good = !a->output || ceduo_file_can_write(a->output);
     if (!good)
-        ceduo_print_message(*a->output ? a->output : "--output", *a->output ? strerror(errno) : _("name a file"));
+        ceduo_print_message(*a->output ? a->output : "--output", *a->output ? ceduo_error_text(errno) : _("name a file"));
     for (size_t i = 0; a->output && good && i < a->scenes_count; i++) {
         const char *path = a->scenes[i];
         if (strcmp(path, "-") != 0)
@@ -48,7 +48,7 @@ bool ceduo_output_check(const struct arguments *a)
 
 static enum exit_status fail(const struct arguments *a)
 {
-    ceduo_print_message(a->output, strerror(errno));
+    ceduo_print_message(a->output, ceduo_error_text(errno));
     return EXIT_OUTPUT;
 }
 

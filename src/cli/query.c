@@ -135,9 +135,9 @@ void ceduo_progress_scenes(struct progress *p, size_t computed, size_t done, siz
 
 #define CHECK_ROCKS 1000
 
-/* Warnings about a scene; each is printed once. */
+/* Warnings about a scene, or a row of --each; each is printed once. */
 struct warnings {
-    const struct scene_file *file;
+    const char *name;
     struct text printed;
 };
 
@@ -146,7 +146,7 @@ static void warn(void *context, const char *sentence)
     struct warnings *warnings = context;
     if (strstr(ceduo_text_string(&warnings->printed), sentence))
         return;
-    ceduo_print_message(warnings->file->path, sentence);
+    ceduo_print_message(warnings->name, sentence);
     ceduo_text_format(&warnings->printed, "%s\n", sentence);
 }
 
@@ -160,7 +160,7 @@ static void warn_stands(const struct ceduo_result *result, struct warnings *warn
 
 void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file, bool stands)
 {
-    struct warnings warnings = {.file = file};
+    struct warnings warnings = {.name = a->called ? a->called : file->path};
     struct ceduo_scene bare = file->scene;
     bare.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX; /* simulates the bare slope only */
     struct ceduo_request request = ceduo_request_default(&bare);

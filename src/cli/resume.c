@@ -121,12 +121,12 @@ static int open_regular(const char *path, const char **reason)
     struct stat st;
     *reason = NULL;
     if (stat(path, &st) == 0 && !S_ISREG(st.st_mode)) {
-        *reason = S_ISDIR(st.st_mode) ? strerror(EISDIR) : _("--resume needs a regular file, not a device or a pipe");
+        *reason = S_ISDIR(st.st_mode) ? ceduo_error_text(EISDIR) : _("--resume needs a regular file, not a device or a pipe");
         return -1;
     }
     int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
     if (fd < 0)
-        *reason = strerror(errno);
+        *reason = ceduo_error_text(errno);
     return fd;
 }
 
@@ -141,7 +141,7 @@ static enum exit_status open_locked(struct resume *r)
             return refuse(path, reason);
         if (flock(r->file, LOCK_EX | LOCK_NB) != 0)
             return refuse(path, errno == EWOULDBLOCK ? _("another ceduo is writing to it; wait for its end, or write elsewhere")
-                                                     : strerror(errno));
+                                                     : ceduo_error_text(errno));
         if (fstat(r->file, &own) == 0 && stat(path, &now) == 0 && own.st_ino == now.st_ino && own.st_dev == now.st_dev)
             return EXIT_DONE;
         close(r->file);
@@ -352,7 +352,7 @@ static enum exit_status read_files(struct resume *r)
                append(r->side, 0, r->identity.bytes, r->identity.length);
     int reason = errno;
     free(readers);
-    return good ? status : refuse(r->arguments->output, strerror(reason));
+    return good ? status : refuse(r->arguments->output, ceduo_error_text(reason));
 }
 
 enum exit_status ceduo_resume_open(struct resume *r, struct each *e, const struct text *head)
@@ -418,15 +418,15 @@ enum exit_status ceduo_resume_add(struct resume *r, uint64_t key, const struct t
     append_part(&part, &side);
     if (r->end == 0) {
         if (!append(r->file, 0, r->head->bytes, r->head->length))
-            return refuse(r->arguments->output, strerror(errno));
+            return refuse(r->arguments->output, ceduo_error_text(errno));
         r->end = r->head->length;
     }
     part.from = r->end;
     if (!append(r->file, r->end, lines->bytes, lines->length))
-        return refuse(r->arguments->output, strerror(errno));
+        return refuse(r->arguments->output, ceduo_error_text(errno));
     r->end += part.n;
     if (fstat(r->side, &st) != 0 || !append(r->side, (size_t)st.st_size, side.bytes, side.length))
-        return refuse(r->side_path, strerror(errno));
+        return refuse(r->side_path, ceduo_error_text(errno));
     add_to_order(r, part);
     return EXIT_DONE;
 }
@@ -483,11 +483,11 @@ static enum exit_status sort_output(const struct resume *r)
 {
     LOCAL_TEXT(side);
     if (!replace_output(r))
-        return refuse(r->arguments->output, strerror(errno));
+        return refuse(r->arguments->output, ceduo_error_text(errno));
     ceduo_text_append_n(&side, r->identity.bytes, r->identity.length);
     for (size_t i = 0; i < r->order_count; i++)
         append_part(&r->order[i], &side);
-    return ceduo_file_write(r->side_path, side.bytes, side.length) ? EXIT_DONE : refuse(r->side_path, strerror(errno));
+    return ceduo_file_write(r->side_path, side.bytes, side.length) ? EXIT_DONE : refuse(r->side_path, ceduo_error_text(errno));
 }
 
 enum exit_status ceduo_resume_close(struct resume *r, bool whole)

@@ -5,6 +5,7 @@
 #include "bind.h"
 #include "scene/rock.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -110,8 +111,7 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
     }
     size_t before = enter_key(b, entry->key);
     if (entry->source->foreign && !removed) { /* do not echo keys of an unrecognized file */
-        ceduo_problem_at(b->to->problems, place, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"),
-                         "");
+        ceduo_problem_at(b->to->problems, place, _("unknown key"));
     } else {
         place.path = path_here(b);
         place.own = true;
@@ -181,6 +181,12 @@ static bool read_number(struct binder *b, const struct node *node, double *value
         return report(b, node, _("'%s' is not a number; write a dot for the decimals and nothing between thousands"), text);
     if (strcmp(text + part.length, "%") == 0 && ceduo_number_read(ceduo_text_string(&part), value) == CEDUO_NUMBER_GOOD)
         return report(b, node, _("'%s' is not a number; write %s"), text, ROUNDTRIP(*value / 100));
+    const size_t length = strspn(text, "+-.0123456789"), blanks = strspn(text + length, " ");
+    ceduo_text_cut(&part, 0);
+    ceduo_text_append_n(&part, text, length);
+    if (ceduo_number_read(ceduo_text_string(&part), value) == CEDUO_NUMBER_GOOD &&
+        isalpha((unsigned char)text[length + blanks]) && (blanks > 0 || !strpbrk(text + length, "0123456789")))
+        return report(b, node, _("'%s' is not a number; write it without its unit, in the unit of the key"), text);
     return report(b, node, _("'%s' is not a number"), text);
 }
 
@@ -451,7 +457,7 @@ static void bind_source(struct binder *b, const struct node *node)
     for (size_t i = 0; i < source.except_count; i++) {
         ceduo_text_format(&changed, i == 0 ? _("changed since: %s") : ", %s", source.except[i]);
         before = enter_key(b, source.except[i]);
-        add_note(b, N_("changed"), _("the source of the whole does not apply to this value"), NULL);
+        add_note(b, N_("changed"), _("the source of the other values does not apply"), NULL);
         leave_path(b, before);
     }
     const char *const texts[2] = {source.text, source.text_it};
@@ -507,9 +513,21 @@ static bool report_decimal_comma(struct binder *b, const struct node *map, size_
     return true;
 }
 
+/* True if a file is of another kind, such as a stand in place of a scene. Reports it; its keys are not read. */
+static bool is_other_kind(struct binder *b, const struct object *object, const struct node *node)
+{
+    const struct field *f = ceduo_schema_field(object, "ceduo");
+    const struct node *tag = f && f->type == FIELD_TAG ? ceduo_node_get(node, "ceduo") : NULL;
+    const char *slash = tag && tag->kind == NODE_SCALAR ? strchr(tag->text, '/') : NULL;
+    bool wrong = slash && strncmp(tag->text, f->value, (size_t)(slash + 1 - tag->text)) != 0;
+    if (wrong)
+        report(b, tag, _("'%s': expected %s"), tag->text, f->value);
+    return wrong;
+}
+
 static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item)
 {
-    if (!expect_kind(b, node, NODE_MAP, _("a mapping")))
+    if (!expect_kind(b, node, NODE_MAP, _("a mapping")) || is_other_kind(b, object, node))
         return;
     bool partial = b->partial;
     b->partial |= node->broken;

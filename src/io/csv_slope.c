@@ -275,7 +275,8 @@ static bool find_headless(struct reader *r, struct csv_place begin)
             csv->cells_count);
     }
     csv->headless = false;
-    return ceduo_problem(r->problems, csv->source, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
+    return ceduo_problem(r->problems, csv->source, 1, 1,
+                         _("the line of heads must name the columns 'distance' and 'elevation'"));
 }
 
 /* Report a head with a unit other than metres. */
@@ -315,7 +316,7 @@ static bool find_columns(struct reader *r)
         columns[DISTANCE] = columns[EAST];
     if ((!r->map && columns[DISTANCE] == CEDUO_CSV_NOT_FOUND) || columns[ELEVATION] == CEDUO_CSV_NOT_FOUND)
         return ceduo_problem(r->problems, csv->source, csv->head_place.line, 1,
-                             _("the first line must name the columns 'distance' and 'elevation'"));
+                             _("the line of heads must name the columns 'distance' and 'elevation'"));
     return true;
 }
 

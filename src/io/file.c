@@ -119,7 +119,7 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
         ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), max >> 20);
     else if (error != ENOMEM)
         ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"),
-                      error == NO_FILE ? _("a device or a socket; name a file") : strerror(error));
+                      error == NO_FILE ? _("a device or a socket; name a file") : ceduo_error_text(error));
     return NULL;
 }
 

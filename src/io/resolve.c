@@ -168,6 +168,12 @@ static const struct node *load_reference(struct resolver *r, const struct object
             const struct node *filled = ceduo_node_with(r->arena, &map, "csv", node);
             return filled ? replace_node(r->arena, filled, node) : NULL;
         }
+    if (end && strcmp(object->folder, "stands") == 0 && strcasecmp(end, ".csv") == 0) {
+        ceduo_problem_at(r->problems, ceduo_node_place(node, node->key),
+                         _("'%s' is a table; convert a survey to a stand with ceduo --survey %s -o FILE.yaml"), node->text,
+                         node->text);
+        return NULL;
+    }
     const char *path = ceduo_resolve_path(r->arena, node, object->folder);
     if (!path)
         ceduo_problem_at(r->problems, ceduo_node_place(node, node->key),

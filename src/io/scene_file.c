@@ -125,7 +125,7 @@ static void report_no_scene(struct scene_file *file, const char *path, const cha
         ceduo_text_append_joined(&names, "; ", _("shipped scenes: %s"), known.bytes);
     if (folders.bytes)
         ceduo_text_append_joined(&names, " ", _("(searched here and in %s)"), folders.bytes);
-    ceduo_problem(problems, &(struct source){.name = path}, 0, 0, _("cannot read it: %s%s"), strerror(ENOENT),
+    ceduo_problem(problems, &(struct source){.name = path}, 0, 0, _("cannot read it: %s%s"), ceduo_error_text(ENOENT),
                   ceduo_text_string(&names));
 }
 

@@ -50,11 +50,11 @@ const struct csv_head ceduo_survey_heads[COLUMNS] = {
              "dbh|dap|diametro|diam|diametro a 1,30 m|diametro a 1,30|diam a 1,30|diam a 1,30 m|diam 1,30|d130|"
              "diametro medio|diam medio|d medio|classe diam|classe diametrica|classe di diametro|diameter|mean dbh|"
              "mean diameter|dbh class|diameter class|bhd|brusthöhendurchmesser|mitteldurchmesser|durchmesser|Ø|⌀|d",
-             "cm|mm", .other_units = "mm", .unit = N_("cm or mm"), .lo = 0.1, .hi = 1e6},
+             "cm|mm", .other_units = "mm", .unit = N_("cm or mm"), .lo = 0.1, .hi = 3000},
     [CIRCUMFERENCE] = {N_("circumference_cm"),
                        "circumference|circonferenza|circonferenza a 1,30|circonferenza a 1,30 m|circ|circ a 1,30|c130|girth|"
                        "gbh|cbh|umfang|brusthöhenumfang",
-                       "cm|mm", .other_units = "mm", .unit = N_("cm or mm"), .lo = 0.3, .hi = 3e6},
+                       "cm|mm", .other_units = "mm", .unit = N_("cm or mm"), .lo = 0.3, .hi = 1e4},
     [HEIGHT] =
         {N_("height_m"),
          "height|total height|altezza|altezza totale|altezza media|mean height|h tot|ht|h media|h medio|höhe|baumhöhe|h|alt",
@@ -235,8 +235,8 @@ static bool refuse_head(const struct csv *csv, const char *missing)
     LOCAL_TEXT(names);
     ceduo_csv_append_heads(csv, &names);
     if (csv->source->foreign)
-        return ceduo_problem_at(csv->problems, place, _("the first line must name the column %s"), missing);
-    return ceduo_problem_at(csv->problems, place, _("the first line must name the column %s; it has: %s"), missing,
+        return ceduo_problem_at(csv->problems, place, _("the line of heads must name the column %s"), missing);
+    return ceduo_problem_at(csv->problems, place, _("the line of heads must name the column %s; it has: %s"), missing,
                             ceduo_text_string(&names));
 }
 

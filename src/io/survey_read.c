@@ -15,7 +15,7 @@
 #include "survey_reader.h"
 
 #define PLOTS_MAX      1000
-#define SLOPE_MAX      85   /* degrees */
+#define SLOPE_MAX      76   /* degrees, 400 %: a larger number is a slip (assumed) */
 #define SLOPE_BARE_MAX 1e4  /* degrees or percent: a steeper slope is an error in any unit */
 #define SLOPE_BARE     45   /* degrees or percent: a steeper slope needs a unit (assumed) */
 #define AREA_BARE      10   /* m2: a smaller plot needs a unit (assumed) */
@@ -67,7 +67,7 @@ static bool read_number(struct survey_reader *r, enum column c, double *value)
                               : ceduo_csv_split_unit(&cell, head->units)     ? CSV_UNIT_USUAL
                                                                              : CSV_UNIT_NONE;
     if (own && r->units[c] && own != r->units[c])
-        return ceduo_csv_error(&r->csv, cell, _("the first line gives another unit for this column; write it without a unit"));
+        return ceduo_csv_error(&r->csv, cell, _("the head of this column gives another unit; write it without a unit"));
     if (c == SLOPE)
         return read_slope(r, cell, own, value);
     bool mm = (own ? own : r->units[c]) == CSV_UNIT_OTHER;

@@ -114,8 +114,11 @@ static void *report_syntax(struct reader *r)
         return STOP(r, place, _("a tab; indent with spaces"));
     if (strstr(message, "cannot start any token"))
         return STOP(r, place, _("malformed YAML: no value can start with this character; put the text in quotes"));
+    if (strstr(message, "mapping values are not allowed"))
+        return STOP(r, place,
+                    _("malformed YAML: no key can stand here; put a text with ': ' in quotes, or indent the line equally"));
     if (p->context)
-        return STOP(r, place, _("malformed YAML: %s %s"), message, p->context);
+        return STOP(r, place, _("malformed YAML: %s %s; check brackets, quotes and indentation"), message, p->context);
     return STOP(r, place, _("malformed YAML: %s"), message);
 }
 

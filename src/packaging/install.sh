@@ -50,3 +50,6 @@ link "$SONAME" "$LIBDIR/libceduo.so"
 files 644 "$LIBDIR/pkgconfig" "$BUILD/ceduo.pc"
 files 644 "$INCLUDEDIR/ceduo" include/ceduo/*.h
 leave "$INCLUDEDIR/ceduo"
+
+# The loader finds a library in a folder of the system only after this.
+case $DESTDIR$LIBDIR in /usr/lib | /usr/local/lib) PATH=$PATH:/usr/sbin:/sbin ldconfig || : ;; esac

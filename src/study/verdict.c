@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict.h"
+#include "base/language.h"
 #include "core/runs/assess.h"
 #include "core/runs/hazard.h"
 #include "core/runs/key.h"
@@ -360,17 +361,17 @@ enum ceduo_class ceduo_outcome_classify(const struct ceduo_result *r, const stru
         const char *why;
     } classes[] = {
         {o->answer == CEDUO_JUDGEMENT_UNANSWERED, CEDUO_CLASS_NOT_JUDGED, NULL},
-        {o->impossible, CEDUO_CLASS_OPEN, "impossible-stand"},
-        {o->answer == CEDUO_JUDGEMENT_CANNOT_JUDGE && hardly_moves(r), CEDUO_CLASS_NOT_JUDGED, "no-rock-moves"},
+        {o->impossible, CEDUO_CLASS_OPEN, N_("impossible-stand")},
+        {o->answer == CEDUO_JUDGEMENT_CANNOT_JUDGE && hardly_moves(r), CEDUO_CLASS_NOT_JUDGED, N_("no-rock-moves")},
         {o->answer == CEDUO_JUDGEMENT_CANNOT_JUDGE && ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS, CEDUO_CLASS_OPEN,
-         "contradicts-terrain"},
-        {o->answer == CEDUO_JUDGEMENT_CANNOT_JUDGE, CEDUO_CLASS_NOT_REACHED, "not-reached"},
-        {o->answer == CEDUO_JUDGEMENT_NOT_DECIDED, CEDUO_CLASS_OPEN, "sampling-error"},
-        {o->answer == CEDUO_JUDGEMENT_DEPENDS, CEDUO_CLASS_OPEN, "uncertain-inputs"},
-        {o->answer == CEDUO_JUDGEMENT_NO && o->today == CEDUO_JUDGEMENT_YES, CEDUO_CLASS_NO, "exceeds-later"},
-        {o->answer == CEDUO_JUDGEMENT_NO, CEDUO_CLASS_NO, "exceeds"},
-        {ceduo_judge_control(bare, NULL) == CEDUO_JUDGEMENT_YES, CEDUO_CLASS_WITHOUT_FOREST, "without-forest"},
-        {true, CEDUO_CLASS_FOREST, "forest"},
+         N_("contradicts-terrain")},
+        {o->answer == CEDUO_JUDGEMENT_CANNOT_JUDGE, CEDUO_CLASS_NOT_REACHED, N_("not-reached")},
+        {o->answer == CEDUO_JUDGEMENT_NOT_DECIDED, CEDUO_CLASS_OPEN, N_("sampling-error")},
+        {o->answer == CEDUO_JUDGEMENT_DEPENDS, CEDUO_CLASS_OPEN, N_("uncertain-inputs")},
+        {o->answer == CEDUO_JUDGEMENT_NO && o->today == CEDUO_JUDGEMENT_YES, CEDUO_CLASS_NO, N_("exceeds-later")},
+        {o->answer == CEDUO_JUDGEMENT_NO, CEDUO_CLASS_NO, N_("exceeds")},
+        {ceduo_judge_control(bare, NULL) == CEDUO_JUDGEMENT_YES, CEDUO_CLASS_WITHOUT_FOREST, N_("without-forest")},
+        {true, CEDUO_CLASS_FOREST, N_("forest")},
     };
     size_t i = 0;
     while (!classes[i].applies)

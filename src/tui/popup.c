@@ -3,15 +3,18 @@
 #include "popup.h"
 
 #include <assert.h>
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/language.h"
 #include "base/oom.h"
 #include "base/utf8.h"
+#include "io/file.h"
 #include "view/value_text.h"
 
 /* ---- creating ---- */
@@ -148,13 +151,31 @@ bool ceduo_popup_number(struct app *app, struct popup *p, size_t i, double *numb
     return true;
 }
 
-bool ceduo_popup_confirm_overwrite(struct app *app, struct popup *p)
+/* True if the scene is read from a file, such as its profile. */
+static bool is_read_file(const struct document *d, const char *path, bool without_scene)
+{
+    bool found = false;
+    for (const struct source *s = d->file.arena.sources; s && !found; s = s->before)
+        found =
+            s->path && ceduo_file_is_same(path, s->path) && !(without_scene && d->path && ceduo_file_is_same(s->path, d->path));
+    return found;
+}
+
+bool ceduo_popup_confirm_overwrite(struct app *app, struct popup *p, bool saves_scene)
 {
     struct line *line = &p->fields[0].line;
-    if (access(line->text, F_OK) != 0 || line->confirmed)
+    struct stat st;
+    if (stat(line->text, &st) != 0)
         return true;
+    if (S_ISDIR(st.st_mode))
+        ceduo_app_warn(app, "%s: %s", line->text, ceduo_error_text(EISDIR));
+    else if (is_read_file(&app->document, line->text, saves_scene))
+        ceduo_app_warn(app, "%s", _("the scene is read from this file; choose another name"));
+    else if (line->confirmed)
+        return true;
+    else
+        ceduo_app_warn(app, "%s", _("the file exists; Enter again replaces it"));
     line->confirmed = true;
-    ceduo_app_warn(app, "%s", _("the file exists; Enter again replaces it"));
     return false;
 }
 
@@ -362,8 +383,7 @@ static void draw_position(struct app *app, const struct popup *p, bool top, cons
 /* Draw a frame in the middle of the screen, with the note in its first lines. Return the area below the note. */
 static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines, int note_lines)
 {
-    int width = app->width - 2 < 84 ? app->width - 2 : 84,
-        wanted = ceduo_app_count_lines(app, ceduo_text_string(&p->text), width - 4);
+    int width = app->width < 88 ? app->width : 84, wanted = ceduo_app_count_lines(app, ceduo_text_string(&p->text), width - 4);
     if (p->kind == POPUP_FIELDS) /* as high as the note; over a list the note changes with the cursor */
         note_lines = wanted < note_lines ? wanted : note_lines;
     note_lines = p->text.bytes || p->update_note ? note_lines : 0;

@@ -86,8 +86,9 @@ bool ceduo_popup_read(struct app *app, const struct field *kind, struct line *li
 /* Read the number of a field with a kind, in the unit of the file. `*number` stays if the line is empty. */
 bool ceduo_popup_number(struct app *app, struct popup *popup, size_t field, double *number);
 
-/* True if the file named in the first field may be written. An existing file needs Enter twice. */
-bool ceduo_popup_confirm_overwrite(struct app *app, struct popup *popup);
+/* True if the file named in the first field may be written. An existing file needs Enter twice. A file that the scene is read
+ * from is refused; if the scene is saved, its own file is not. */
+bool ceduo_popup_confirm_overwrite(struct app *app, struct popup *popup, bool saves_scene);
 
 /* ---- the open popup ---- */
 

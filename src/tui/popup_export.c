@@ -108,15 +108,20 @@ static bool submit_export(struct app *app, struct popup *p)
 {
     const char *path = p->fields[0].line.text;
     enum export_kind kind = (enum export_kind)atoi(p->target);
+    const char *dot = strrchr(path, '.');
     LOCAL_TEXT(text);
-    if (!ceduo_popup_confirm_overwrite(app, p))
+    if (kind == EXPORT_REPORT && !(dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0))) {
+        ceduo_app_warn(app, _("'%s' does not end in .html or .htm"), path);
+        return false;
+    }
+    if (!ceduo_popup_confirm_overwrite(app, p, false))
         return false;
     append_export(app, kind, &text);
     bool good = text.bytes && ceduo_file_write(path, text.bytes, text.length);
     if (!text.bytes)
         ceduo_app_warn(app, "%s", _("nothing is computed yet"));
     else if (!good)
-        ceduo_app_warn(app, "%s: %s", path, strerror(errno));
+        ceduo_app_warn(app, "%s: %s", path, ceduo_error_text(errno));
     else
         ceduo_app_show_message(app,
                                kind == EXPORT_REPORT && !is_uncertainty_done(app)

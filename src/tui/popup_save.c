@@ -27,7 +27,7 @@ static bool save_to(struct app *app, const char *path)
     }
     if (!ceduo_document_save(&app->document, path, &reformatted)) {
         int reason = errno;
-        ceduo_app_warn(app, "%s: %s", path, strerror(reason));
+        ceduo_app_warn(app, "%s: %s", path, ceduo_error_text(reason));
         errno = reason;
         return false;
     }
@@ -64,7 +64,7 @@ static bool submit_save(struct app *app, struct popup *p)
         ceduo_app_warn(app, "%s", _("a name is needed"));
         return false;
     }
-    return (own || ceduo_popup_confirm_overwrite(app, p)) && save_to(app, path);
+    return (own || ceduo_popup_confirm_overwrite(app, p, true)) && save_to(app, path);
 }
 
 void ceduo_popup_offer_files(struct app *app, struct popup *p)
@@ -140,7 +140,7 @@ static void save_to_own_file(struct app *app)
 {
     const char *path = ceduo_app_format(app, "%s", app->document.path); /* copy: saving frees the document's path */
     if (!save_to(app, path))
-        ask_file_name(app, strerror(errno));
+        ask_file_name(app, ceduo_error_text(errno));
 }
 
 static void select_disk_action(struct app *app, struct popup *p)

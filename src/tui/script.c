@@ -48,7 +48,7 @@ static enum script_end dump_screen(struct app *app, const char *what, const char
     bool good = strcmp(name, "-") == 0 ? fputs(drawing.bytes, stdout) >= 0 && fflush(stdout) == 0
                                        : ceduo_file_write(name, drawing.bytes, drawing.length);
     if (!good)
-        report_error(path, line, strerror(errno), name, SIZE_MAX);
+        report_error(path, line, ceduo_error_text(errno), name, SIZE_MAX);
     return good ? SCRIPT_DONE : SCRIPT_UNWRITTEN;
 }
 

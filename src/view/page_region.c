@@ -269,7 +269,7 @@ static void add_worst(struct ceduo_page *page, const struct ceduo_region *r, siz
             ceduo_page_cell_format(page, "%s", k == 0 ? r->lines[i].name : "");
             ceduo_page_cell_format(page, "%s", r->options_count > 1 ? r->options[k] : "");
             ceduo_page_cell_format(page, "%s", a->why ? _(class_names[a->class]) : "-");
-            ceduo_page_cell_format(page, "%s", a->why ? a->why : "-");
+            ceduo_page_cell_format(page, "%s", a->why ? _(a->why) : "-");
             ceduo_page_cell_format(page, "%s", isnan(a->share) ? "-" : SIG(a->share * 1000, 3));
             ceduo_page_cell_format(page, "%s", isnan(a->exceed) ? "-" : SIG(a->exceed, 3));
             if (k == 0 && i < chapters)

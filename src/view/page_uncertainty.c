@@ -312,6 +312,10 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_uncertainty_r
     if (r->file->scene.options_count > 1)
         ceduo_page_para(page, f->fit.enough_points ? CEDUO_PAGE_CAPTION : CEDUO_PAGE_SENTENCE, _("Inputs that decide '%s':"),
                         r->file->scene.options[f->option].name);
+    if (f->fit.p5 == f->fit.p95) {
+        ceduo_page_note(page, _("Nine of ten plausible cases have the same result. No input decides."));
+        return;
+    }
     if (!f->fit.enough_points) {
         ceduo_page_note(page, _("Too few points to rank the inputs; use more (--sensitivity=N)."));
         return;

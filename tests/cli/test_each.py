@@ -4,6 +4,7 @@
 import csv
 import io
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -166,6 +167,9 @@ def test_classes():
         rows = {row["what"]: row for row in table(r.out)}
         expect_equal({what: (row["verdict.answer"], row["verdict.class"]) for what, row in rows.items()}, wanted, str(r))
         expect_equal([row["verdict.why"] for row in rows.values()], list(wanted))
+        for row in ("no-rock-moves", "not-reached"):
+            expect(re.search(rf"^rows.csv:\d+ \({row}\): .*cannot be assessed", ceduo(
+                "--check", "-q", "--each", "rows.csv", "--key", "what", "s.yaml", cwd=f.path).err, re.M), row)
         expect(float(rows["forest"]["bare.exceed_probability"]) > 0.05 > float(rows["forest"]["wooded.exceed_probability"]), rows["forest"])
         f.write("rows.csv", "id,controls[0].accepted_kJ,simulation.contact_model\nno limit,.,\nindex,20,index\n")
         f.write("s.yaml", wooded_scene(controls=[{"x_m": 60}]))

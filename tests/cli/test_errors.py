@@ -298,7 +298,7 @@ CASES = {
         "  - forest:\n    - {stand: @@1000.yaml}\n", {f"{i}.yaml": "{}" for i in range(1001)}),
     # YAML
     "malformed YAML: did not find expected ',' or ']' while parsing ...": sc("title: small", "title: [a\ntitle@@: small"),
-    "malformed YAML: mapping values are not allowed in this context": sc("title: small", "title: a@@: b"),
+    "malformed YAML: no key can stand here; put a text with ': ' in quotes, or indent the line equally": sc("title: small", "title: a@@: b"),
     "malformed YAML: no value can start with this character": sc("title: small", "title: @@`small"),
     "a tab; indent with spaces": sc("release: {x_m", "release:\n@@\tx_m: 5\nextra: {x_m"),
     "an alias, an anchor or a tag; write the value out without it": lambda row: [
@@ -320,6 +320,9 @@ CASES = {
     "unknown key; did you mean 'diameter_m'?": sc("diameter_m: 0.5", "@@diametre_m: 0.5"),
     "unknown key; known here: ...": sc("{x_m: 90}", "{x_m: 90, @@qqqqqqqqqqqqqqq: 1}"),
     "'rn' is missing: normal restitution Rn": sl("  - {rn: 0.35, ", "  - @@{"),
+    "'0.8 m' is not a number; write it without its unit, in the unit of the key": sl("rt: 0.87", "rt: @@0.8 m"),
+    "'s.csv' is a table; convert a survey to a stand with ceduo --survey s.csv -o FILE.yaml":
+        sc("to_m: 40\n    stand: stand.yaml", "to_m: 40\n    stand: @@s.csv"),
     "'0.8' is in quotes; write the number without them": sl("rt: 0.87", "rt: @@'0.8'"),
     "'0.8 m' is not a number": sc("diameter_m: 0.5", "diameter_m: @@0.8 m"),
     "decimal comma: write 0.8": st("dbh_m: 0.07", "dbh_m: @@0,8"),
@@ -384,7 +387,7 @@ CASES = {
         MATERIALS, "materials: [{from_m: 0, to_m: 40, material: talus}, {from_m: @@50, to_m: 100, material: talus}]\n"),
     "40 is before the end of the profile, 100; extend the last row": sl(MATERIALS, "materials: [{from_m: 0, to_m: @@40, material: talus}]\n"),
     "the end (-1) must lie beyond the start (0)": sl(MATERIALS, "materials: [{from_m: 0, to_m: @@-1, material: talus}]\n"),
-    "the first line must name the columns 'distance' and 'elevation'": csv("a,64\n100,0\n", "line.csv:1:1: "),
+    "the line of heads must name the columns 'distance' and 'elevation'": csv("a,64\n100,0\n", "line.csv:1:1: "),
     "too few columns": csv("distance,elevation\n0,64\n50\n100,0\n", "line.csv:3:1: "),
     "a value is missing; remove the line": csv("distance,elevation\n0,64\n50,\n100,0\n", "line.csv:3:4: "),
     "the decimal sign of '1.000,5' is not the dot of line 2; use one sign in the whole table": csv("distance;elevation\n0;6.4\n1.000,5;0\n", "line.csv:3:1: "),
@@ -474,7 +477,8 @@ CASES = {
     "--size: 10x5 is outside 20x6 to 1000x500": Words("--plot", "stand", "--size", "10x5", "@"),
     "--years: '5' is not A:B[:STEP], such as '0:25'": Words("--years", "5", "@"),
     "--years: 0:5000: give at most 1000 years between 0 (the stand in the file) and 100000": lambda row: [
-        Words(f"--years={words}", "@")(row.replace("0:5000", words)) for words in ("0:5000", "-5:-1", "9:1", "5:100001")],
+        Words(f"--years={words}", "@")(row.replace("0:5000", words)) for words in ("0:5000", "-5:-1", "5:100001")],
+    "--years: 9:1: the last year is before the first; write 1:9": Words("--years=9:1", "@"),
     "--find: 'x' is not PATH=LO:HI, such as ...": Words("--find", "x", "--goal", "adc", "@"),
     "--find: the range 9:1 is empty; HI must be above LO": Words("--find", "a=9:1", "--goal", "adc", "@"),
     "--find requires --goal": Words("--find", "a=1:9", "@"),

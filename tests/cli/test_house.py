@@ -129,6 +129,10 @@ def forbidden_curses():
 
 
 def unformatted_files():
+    """Return the files that clang-format 14 changes, or None with another version: each formats macros differently."""
+    version = subprocess.run(["clang-format", "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    if " version 14." not in version:
+        return None
     files = sorted(str(p) for folder in ("src", "include", "tests", "man") for p in (ROOT / folder).rglob("*.[ch]"))
     done = subprocess.run(["clang-format", "--dry-run", *files], stderr=subprocess.PIPE, text=True, cwd=ROOT)
     return sorted({line.split(":")[0] for line in done.stderr.splitlines() if "warning:" in line} | ({str(done.returncode)} - {"0"}))
@@ -211,14 +215,14 @@ def main():
              ("file names are unique within a room", duplicate_names), ("scene and core call no function outside the library", forbidden_functions),
              ("a rock's trajectory calls no function that differs between machines", machine_dependent_symbols),
              ("every exported symbol begins with ceduo_", wrong_exports), ("only one file includes curses", forbidden_curses),
-             ("clang-format changes no file", unformatted_files), ("each line of changes.txt is unique in its file", stale_changes),
+             ("clang-format 14 changes no file", unformatted_files), ("each line of changes.txt is unique in its file", stale_changes),
              ("only two files of the upper rooms read arrivals", forbidden_readers_of_arrivals)]
     failed = 0
     for number, (name, test) in enumerate(tests, 1):
         bad = test()
         failed += bool(bad)
-        print(f"{'not ok' if bad else 'ok'} {number} - {name}")
-        for line in bad:
+        print(f"{'not ok' if bad else 'ok'} {number} - {name}" + (" # SKIP another version is installed" if bad is None else ""))
+        for line in bad or ():
             print(f"# {line}")
     print(f"1..{len(tests)}")
     sys.exit(failed > 0)

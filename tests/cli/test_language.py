@@ -29,6 +29,8 @@ def test_environment():
                         ({"LC_ALL": "it_IT.UTF-8", "LANGUAGE": "en"}, ENGLISH),
                         ({"LC_ALL": "it_IT.UTF-8", "LANGUAGE": "en_GB:it"}, ITALIAN),
                         ({**none, "LANG": "it_IT.UTF-8", "LC_MESSAGES": "C"}, ENGLISH),
+                        ({**none, "LANG": "C.UTF-8", "LANGUAGE": "it"}, ITALIAN),
+                        ({**none, "LANG": "de_DE.UTF-8", "LANGUAGE": "de:it_IT"}, ITALIAN),
                         ({"LC_ALL": "C", "LANG": "it_IT.UTF-8"}, ENGLISH), ({"LC_ALL": "italic.UTF-8"}, ENGLISH),
                         ({"LC_ALL": "xx_YY.UTF-8"}, ENGLISH)):
         expect_in(wanted, good("--help", env=env).out, env)
@@ -40,6 +42,13 @@ def test_option():
         expect_in(ITALIAN, good("--language", "it", "--help", env={"LC_ALL": env}).out, env)
         expect_in(ENGLISH, good("--help", "--language=en", env={"LC_ALL": env}).out, env)
     expect_equal(ceduo("--language", "fr").status, USAGE)
+
+
+def test_system_errors():
+    """Errors of the system are Italian without a locale of the machine"""
+    expect_in("none.yaml: non si può leggere: file o cartella inesistente", ceduo("--language", "it", "-b", "none.yaml").err)
+    expect_equal(ceduo("--language", "it", "-b", "-o", "/dev/full", "-n", 5, "-s", "uncertainty=none", PAPER).err,
+                 "/dev/full: spazio esaurito sul disco\n")
 
 
 def test_without_translation():

@@ -420,6 +420,13 @@ def test_many():
         expect("Measure first" not in page, page)
 
 
+def test_constant():
+    """If plausible cases have the same result, no input decides, and more points would not help"""
+    page = good("--sensitivity=64", "-n", 20, "-s", "controls[0].accepted_kJ=10000", "paper-site").out
+    expect_in("have the same result. No input decides.", page)
+    expect("more points" not in page and "use more" not in page, page)
+
+
 GROWTH = {"shoots": {"dbh_most_m": 0.16, "dbh_rate_1_y": 0.03, "height_most_m": 14, "height_rate_1_y": 0.04},
           "trees": {"dbh_most_m": 0.45, "dbh_rate_1_y": 0.02, "height_most_m": 20, "height_rate_1_y": 0.03},
           "shoots_young": 10, "shoots_old": 3}

@@ -277,7 +277,7 @@ def test_units():
         for head, unit in (("Altezza (dm)", "m"), ("height_ft", "m"), ("slope (gon)", "degrees or %")):
             refused(survey(f, ONE.format(f",{head}") + rows.format("20,14", "30,16")), f"this column must be in {unit}; convert")
         refused(survey(f, "plot,sup. (are),kind,dbh\n1,4,tree,20\n"), "this column must be in m2; convert")
-        refused(survey(f, ONE.format("").replace("dbh_cm", "dbh_mm") + rows.format("20 cm", "30")), "the first line gives another unit")
+        refused(survey(f, ONE.format("").replace("dbh_cm", "dbh_mm") + rows.format("20 cm", "30")), "the head of this column gives another unit")
         read(f, ONE.format(",d (m)") + rows.format("20,5", "30,6"), {"trees": 25}, "not used: d (m)")
         both = ONE.format(",circ_cm") + "1,400,tree,,20,{}\n1,,tree,,,94.25\n"
         read(f, both.format("62.8"), {"trees": 50}, "dbh 20 to 30 cm")
@@ -374,7 +374,7 @@ def test_asked():
             read(f, slopes.format(head, "80%", "35°"), {"trees": per_ha((1, 400 * cosine(80)), (1, 400 * math.cos(math.radians(35))))})
             read(f, slopes.format(head, "45", "0"), {"trees": per_ha((1, 400 / math.sqrt(2)), (1, 400))})
             refused(survey(f, slopes.format(head, "80%", "35")), "plots.csv:3:7: some slopes have a unit and others have none")
-            refused(survey(f, slopes.format(head + "_deg", "80%", "35")), "plots.csv:2:7: the first line gives another unit")
+            refused(survey(f, slopes.format(head + "_deg", "80%", "35")), "plots.csv:2:7: the head of this column gives another unit")
         sizes = "plot,area_m2,kind,{},{}\n1,4000,tree,{},{}\n1,,tree,{},{}\n"
         for head, mended in (("diametro", "diametro_mm"), ("DBH", "dbh_mm"), ("DAP", "DAP (mm)"), ("girth", "circumference_mm")):
             refused(survey(f, sizes.format(head, "height", 160, 12, 180, 13)), "the mean diameter is", "_mm' for millimetres", "_cm' for")

@@ -58,6 +58,15 @@ def is_accepted(modes, option):
     return done.status == INPUT
 
 
+def test_words():
+    """--help names each goal and each picture"""
+    help_text = " ".join(re.split(r"\n\n", ceduo("--help").out)[3].split())
+    for option in ("goal", "plot"):
+        words = re.search(r"one of: (.*)", ceduo(f"--{option}=none", "--batch", "none.yaml").err)[1].split(", ")
+        listed = re.search(rf"--{option} [A-Z]+\S* (.*?) --", help_text)[1]
+        expect(len(words) > 5 and not [word for word in words if not re.search(rf"(?<![\w-]){word}(?![\w-])", listed)], words, listed)
+
+
 def test_all_options():
     """The SYNOPSIS has exactly the options of --help"""
     named = {name for alternatives, others in forms() for name in {*others, *sum(alternatives, [])}}

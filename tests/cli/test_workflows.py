@@ -524,7 +524,7 @@ def test_uncertainty():
     walk = walked("uncertainty")
     now, lo, hi, low, high = map(int, re.search(r"current +(\d+) +(\d+)–(\d+) +(\d+)–(\d+)", walk.outputs[0]).groups())
     expect(450 < now < 510 and 440 < lo < hi < 520, "480, 30 more or less", now, lo, hi)
-    ends = numbers_in_page(r"90\\~% range by uncertain inputs is (\d+) to (\d+)\.")
+    ends = numbers_in_page(r"90\\ % range by uncertain inputs is (\d+) to (\d+)\.")
     expect(abs(low - ends[0]) <= 15 and abs(high - ends[1]) <= 15, ends, low, high)
     expect(high - low > 6 * (hi - lo), "the uncertainty is mostly far more")
     shares = [(m[1].strip(), int(m[2])) for m in re.finditer(r"^  (\S.{33}).* (\d+) % +\d+$", walk.outputs[0], re.M)]
@@ -533,7 +533,7 @@ def test_uncertainty():
     expect(sum(share for _, share in shares) > 105, "more than 100 %", shares)  # 113 % of these two alone, from four runs
     expect_in("Scenes computed: 280.", walk.outputs[0])
     order = re.search(r"'large reserves, just cut' beats .* in (\d+) % .*, worse in (\d+) %: likely\.", re.sub(r"\s+", " ", walk.outputs[1]))
-    better, worse = numbers_in_page(r"in some (\d+)\\~% of the plausible cases, and more in (\d+)\\~%\. The page calls that likely")
+    better, worse = numbers_in_page(r"in some (\d+)\\ % of the plausible cases, and more in (\d+)\\ %\. The page calls that likely")
     expect(order and abs(int(order[1]) - better) <= 5 and abs(int(order[2]) - worse) <= 5, better, worse, walk.outputs[1])
 
 

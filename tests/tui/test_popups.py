@@ -290,10 +290,10 @@ def test_lines_of_a_profile():
 
 def test_a_survey_that_asks():
     """A survey whose slopes have no unit opens a form; the answer gives the stand of a head with that unit"""
-    rows = "1;400;80;albero;20\n2;400;80;albero;22\n"
+    rows = "1;400;70;albero;20\n2;400;70;albero;22\n"
     with Place() as place:
         place.write("bare.csv", "saggio;superficie;pendenza;tipo;diametro\n" + rows)
-        for answer, per_ha in (("degrees", 10000 / 400 / math.cos(math.radians(80))), ("percent", 10000 / 400 / math.cos(math.atan(0.8)))):
+        for answer, per_ha in (("degrees", 10000 / 400 / math.cos(math.radians(70))), ("percent", 10000 / 400 / math.cos(math.atan(0.7)))):
             asked, unanswered, understood, given = place.play(f"""key 2
                 key p
                 type from a survey

@@ -63,6 +63,42 @@ def test_save_as_same():
         expect(place.text("fast.yaml").startswith(" 1 slope"), "written over at once")
 
 
+def test_inputs_kept():
+    """Neither S nor w replaces a file that the scene is read from, or a folder; a report ends in .html."""
+    profile = "distance,elevation\n0,80\n60,30\n100,0\n"
+    scene = FAST[:FAST.index("slope:")] + "slope: p.csv\n" + FAST[FAST.index("controls:"):]
+    with Place() as place:
+        place.write("p.csv", profile)
+        place.write("read.yaml", scene)
+        (place.path / "sub.yaml").mkdir()
+        screens = place.play("""\
+            wait idle
+            key S Ctrl-U
+            type p.csv
+            key Enter Enter
+            dump
+            key Ctrl-U
+            type sub.yaml
+            key Enter Enter
+            dump
+            key Esc w Down Down Down Enter Ctrl-U
+            type read.yaml
+            key Enter Enter
+            dump
+            key Esc w Down Down Down Down Down Enter Enter Enter Enter Enter Enter Enter
+            dump
+            key Ctrl-U
+            type read.pdf
+            key Enter Enter
+            dump""", "read.yaml")
+        for screen, text in zip(screens, ("the scene is read from this file", "Is a directory", "the scene is read from this file",
+                                          "a report, as HTML", "'read.pdf' does not end in .html or .htm")):
+            screen.has(text)
+        expect_equal(place.text("p.csv"), profile)
+        expect_equal(place.text("read.yaml"), scene)
+        expect(not (place.path / "read.pdf").exists(), "a page that no browser opens")
+
+
 def test_folder_kept():
     """S proposes the file with its folder: a name changed at its end stays in it."""
     with Place() as place:

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tags: brief */
-/* Text without a translation, as in the locale C, and data text, which is never translated. */
+/* Text without a translation, data text, which is never translated, and catalogues. */
 #include "test.h"
+
+#include <stdint.h>
+#include <string.h>
 
 #include "base/language.h"
 
@@ -17,4 +20,48 @@ TEST(untranslated_text_is_unchanged)
         assert_string_equal(ceduo_translate_in(N_("no context")), "no context");
     }
     ceduo_language_set_data(false);
+}
+
+/* A catalogue with three texts: head, two tables, texts. */
+#define HEAD  20U
+#define COUNT 3U
+#define TEXTS (HEAD + 16 * COUNT)
+static const char texts[] = "%d rock\0%d rocks\0en\0head\004word\0%d masso\0%d massi\0it\0parola";
+static const uint32_t entries[] = {0x950412de, 0,  COUNT,      HEAD, HEAD + 8 * COUNT, 16, TEXTS,     2, TEXTS + 17, 9,
+                                   TEXTS + 20, 17, TEXTS + 30, 2,    TEXTS + 48,       6,  TEXTS + 51};
+
+static void make_catalogue(char bytes[TEXTS + sizeof texts])
+{
+    memcpy(bytes, entries, TEXTS);
+    memcpy(bytes + TEXTS, texts, sizeof texts);
+}
+
+TEST(a_catalogue_translates)
+{
+    static char bytes[TEXTS + sizeof texts];
+    make_catalogue(bytes);
+    assert_true(ceduo_language_use(bytes, sizeof bytes));
+    assert_string_equal(ngettext("%d rock", "%d rocks", 1), "%d masso");
+    assert_string_equal(ngettext("%d rock", "%d rocks", 0), "%d massi");
+    assert_string_equal(P_("head", "word"), "parola");
+    assert_string_equal(ngettext("head\004word", "words", 2), "parola"); /* has one form */
+    assert_string_equal(_("between"), "between");
+    assert_string_equal(ceduo_in_language("english", "italian"), "italian");
+    ceduo_language_use(NULL, 0);
+    assert_string_equal(ceduo_in_language("english", "italian"), "english");
+}
+
+TEST(a_damaged_catalogue_is_refused)
+{
+    char bytes[TEXTS + sizeof texts];
+    make_catalogue(bytes);
+    for (size_t size = 0; size < sizeof bytes; size++)
+        assert_false(ceduo_language_use(bytes, size));
+    for (size_t i = 0; i < TEXTS; i += sizeof(uint32_t)) {
+        make_catalogue(bytes);
+        memset(bytes + i, 0xff, sizeof(uint32_t));
+        assert_int_equal(ceduo_language_use(bytes, sizeof bytes), i == sizeof(uint32_t)); /* the revision */
+        assert_string_equal(P_("head", "none"), "none");
+    }
+    ceduo_language_use(NULL, 0);
 }
