@@ -168,7 +168,7 @@ enum ceduo_status ceduo_run_fence(const struct ceduo_run *run, const struct cedu
     bool stands = ceduo_fence_stands(&scene->controls[control].fence), designed = ceduo_design_is_requested(&scene->design);
     if (run->rocks == 0 || (!stands && !designed))
         return CEDUO_OK;
-    struct passing *p = malloc(((size_t)run->rocks + 1) * sizeof *p);
+    struct passing *p = calloc((size_t)run->rocks + 1, sizeof *p);
     struct weighted *scratch = designed ? malloc(((size_t)run->rocks + 2) * sizeof *scratch) : NULL;
     bool good = p && (scratch || !designed);
     if (good) {
