@@ -67,7 +67,8 @@ static int open_site(void **state)
                                    .bare = {.rocks = 1000, .controls = 1, .arrivals = &bare},
                                    .options_count = 1,
                                    .options = &option_result};
-    years = (struct ceduo_years_summary){.years = 25, .simulated = 25, .exceed = {.19, .01, 0, 0}, .worst = .489, .worst_year = 1};
+    years =
+        (struct ceduo_years_summary){.years = 25, .simulated = 25, .exceed = {.19, .01, 0, 0}, .worst = .489, .worst_year = 1};
     choice = (struct ceduo_choice){
         .summaries = &years, .last_summary = &years, .window = {CEDUO_WINDOW_AHEAD, 1, 25, 1}, .energy_known = true};
     verdict = (struct ceduo_verdict){.wooded = true, .accepted = true, .n = 1, .choices = &choice};
