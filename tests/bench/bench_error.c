@@ -22,8 +22,9 @@ enum { MEAN, P95, REACH, EXCEED, QUANTITIES };
 static const char *const quantity_names[QUANTITIES] = {"mean_energy_kJ", "p95_energy_kJ", "reach", "exceed"};
 
 #define ACCEPTED         100e3 /* J; about half of the rocks exceed it */
-#define TRUE_ROCKS       8000000
-#define TRUE_ROCKS_STEMS 1000000
+#define TRUE_ROCKS       1000000 /* of each run of the truth */
+#define TRUE_RUNS        8
+#define TRUE_RUNS_STEMS  1
 #define PLAIN_TRUE_ROCKS 4000000
 #define SOBOL_MAX        40
 #define STARTS           4 /* draws of a start */
@@ -67,6 +68,20 @@ static double run_core(struct paper_site *site, bool stems, uint64_t rocks, uint
     return seconds;
 }
 
+/* The truth: the means of runs with different seeds, and their standard errors. */
+static void find_truth(struct paper_site *site, bool stems, double truth[QUANTITIES], double se[QUANTITIES])
+{
+    const unsigned runs = stems ? TRUE_RUNS_STEMS : TRUE_RUNS;
+    for (unsigned i = 0; i < runs; i++) {
+        double value[QUANTITIES], value_se[QUANTITIES];
+        run_core(site, stems, TRUE_ROCKS, (1u << 20) + i, value, value_se);
+        for (int q = 0; q < QUANTITIES; q++) {
+            truth[q] = (i > 0 ? truth[q] : 0) + value[q] / runs;
+            se[q] = value_se[q] / sqrt(runs);
+        }
+    }
+}
+
 static void print_row(const char *label, const char *numbers, uint64_t rocks, const struct row *row,
                       const double true_se[QUANTITIES], const struct row *plain)
 {
@@ -93,7 +108,7 @@ static void measure_core(const char *label, bool stems, size_t asked, uint64_t m
     paper_site_init(&site);
     site.control.accepted = ACCEPTED;
     double truth[QUANTITIES], true_se[QUANTITIES];
-    run_core(&site, stems, stems ? TRUE_ROCKS_STEMS : TRUE_ROCKS, 1u << 20, truth, true_se);
+    find_truth(&site, stems, truth, true_se);
     for (uint64_t rocks = 100; rocks <= max; rocks *= 10) {
         struct row row = {.repeats = choose_repeats(asked, rocks)};
         for (size_t i = 0; i < row.repeats; i++) {

@@ -137,6 +137,13 @@ class Results:
                      [[r["place"], r["kernel"], r["law"], r["contacts_a_rock"], digits(r["ns_a_contact"]), r["rock_to_lumped"],
                        r["contact_to_lumped"]] for r in self.rows("bench_laws")])
 
+    def kernels(self):
+        rows = self.rows("bench_kernels")
+        kernels = list(dict.fromkeys(r["kernel"] for r in rows))
+        return table(["place", *kernels],
+                     [[place, *[next((r["ratio_to_plain"] for r in rows if (r["scene"], r["kernel"]) == (place, k)), "-") for k in kernels]]
+                      for place in dict.fromkeys(r["scene"] for r in rows)])
+
     def uncertainty(self):
         return table(["scene", "years", "inputs", "points", "rocks", "evaluations", "processor s"],
                      [[Path(r["scene"]).stem, r["years"], r["inputs"], r["points"], r["rocks"], r["evaluations"],
