@@ -15,7 +15,7 @@
 #include "frame.h"
 
 #define ACCEPTED   100e3
-#define TRUE_ROCKS 1000000 /* of each run of the truth */
+#define TRUE_ROCKS 1000000 /* in each run of the truth */
 #define TRUE_RUNS  2
 
 enum {

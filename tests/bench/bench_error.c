@@ -21,8 +21,8 @@
 enum { MEAN, P95, REACH, EXCEED, QUANTITIES };
 static const char *const quantity_names[QUANTITIES] = {"mean_energy_kJ", "p95_energy_kJ", "reach", "exceed"};
 
-#define ACCEPTED         100e3 /* J; about half of the rocks exceed it */
-#define TRUE_ROCKS       1000000 /* of each run of the truth */
+#define ACCEPTED         100e3   /* J; about half of the rocks exceed it */
+#define TRUE_ROCKS       1000000 /* in each run of the truth */
 #define TRUE_RUNS        8
 #define TRUE_RUNS_STEMS  1
 #define PLAIN_TRUE_ROCKS 4000000
