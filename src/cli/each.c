@@ -118,7 +118,9 @@ static bool check_numbers(const struct each *e)
 static bool check_row(const struct each *e, size_t repeats)
 {
     const struct csv *t = &e->table;
-    struct csv_cell key = e->key == NO_COLUMN || t->bad ? (struct csv_cell){0} : ceduo_csv_next_cell(t, e->key);
+    struct csv_cell key = {0};
+    if (e->key != NO_COLUMN && !t->bad)
+        key = ceduo_csv_next_cell(t, e->key);
     bool good = !t->bad && check_numbers(e);
     if (good && e->key != NO_COLUMN && key.n == 0)
         good = ceduo_csv_error(t, key, _("the key '%s' is empty; name each row"), e->given->key);

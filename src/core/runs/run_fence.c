@@ -152,7 +152,7 @@ static void read_loads(const struct passing *p, size_t n, double stopped, struct
     for (size_t i = 0; i < sizeof members / sizeof members[0]; i++) {
         scratch[0] = (struct weighted){0, stopped};
         for (size_t r = 0; r < n; r++)
-            scratch[r + 1] = (struct weighted){*(const double *)((const char *)&p[r] + members[i]), p[r].weight};
+            scratch[r + 1] = (struct weighted){*(const double *)(const void *)((const char *)&p[r] + members[i]), p[r].weight};
         ceduo_weighted_sort(scratch + 1, n);
         *arriving[i] = ceduo_weighted_quantile(scratch + 1, n, 0.95);
         *system[i] = stopped + (double)n > 0 ? ceduo_weighted_quantile(scratch, n + 1, 0.95) : NAN;
