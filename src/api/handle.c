@@ -300,8 +300,7 @@ static enum ceduo_status set_value(struct open_scene *scene, const char *path, c
     if (!change)
         return fail_by_status(CEDUO_NO_MEMORY);
     change->path_length = length;
-    memcpy(change->text, path, length);
-    change->text[length] = '=';
+    *stpcpy(change->text, path) = '=';
     memcpy(change->text + length + 1, text, text_length + 1);
     LOCAL_PROBLEMS(problems);
     LOCAL_PROBLEMS(again);
@@ -460,9 +459,11 @@ int64_t ceduo_samples(ceduo_handle handle, int option, size_t control, const cha
     struct open_scene *scene = begin_call(handle, false);
     if (!scene)
         return -1;
+    int64_t rocks = -1;
     if (!quantity || (!to && n > 0))
         fail(CEDUO_BAD_ARGUMENT, "the quantity or the place is missing");
-    int64_t rocks = last_error.text[0] ? -1 : copy_samples(scene, option, control, quantity, to, n);
+    else
+        rocks = copy_samples(scene, option, control, quantity, to, n);
     end_call(scene, CEDUO_OK);
     return rocks;
 }

@@ -496,6 +496,7 @@ static void click_field(struct app *app, int x, int line)
 {
     struct popup *p = app->popup;
     (void)x;
+    /* NOLINTNEXTLINE(clang-analyzer-unix.Malloc): false positive: no key submits the form, because a field follows */
     for (size_t last = SIZE_MAX; app->popup == p && p->current != (size_t)line && p->current != last;) {
         last = p->current;
         handle_fields_key(app, p, (size_t)line < last ? K_SHIFT_TAB : K_ENTER);

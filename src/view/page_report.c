@@ -294,8 +294,7 @@ static void add_limits(struct ceduo_page *page, const struct ceduo_result *resul
     static const char *const limits[] = {
         N_("The model is two-dimensional: lateral motion is ignored."),
         N_("Each rock finds the forest undamaged; rocks do not break, and do not hit each other."),
-        N_("Shrubs, falling trees, air drag and soil deformation are ignored. A stem is a cylinder with the diameter of its "
-           "dbh."),
+        N_("Shrubs, falling trees, air drag and soil deformation are ignored. A stem is a cylinder with its dbh."),
         N_("The energy that a stem absorbs was measured on few species. For thin stems it is the largest uncertainty."),
         N_("A coppice cannot guarantee to stop a rock. If people may be hurt, an engineer must judge the site.")};
     ceduo_page_para(page, CEDUO_PAGE_SECTION, "%s", _("Limits of the model"));
