@@ -301,7 +301,7 @@ static int open_temporary(struct pending_file *file, mode_t mode)
 
 bool ceduo_file_prepare(struct pending_file *file)
 {
-    mode_t mode;
+    mode_t mode = 0;
     if (!find_target(file, &mode))
         return false;
     if (!file->target)
@@ -319,7 +319,7 @@ static int open_in_place(const char *path)
 
 int ceduo_file_begin(struct pending_file *file)
 {
-    mode_t mode;
+    mode_t mode = 0;
     if (!find_target(file, &mode))
         return -1;
     return file->target ? open_temporary(file, mode) : open_in_place(file->path);

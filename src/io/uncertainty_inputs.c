@@ -279,15 +279,16 @@ bool ceduo_inputs_collect(struct scene_file *file, struct scene_inputs *inputs)
     for (size_t i = 0; inputs->items && i < file->inputs_count; i++)
         if (file->inputs[i].places_count > 0) /* a row of the scene replaces a row without places */
             inputs->items[inputs->n++] = file->inputs[i];
-    for (size_t i = 0; inputs->items && i < 2 * f.n;
-         i++) { /* today's inputs first, so that growth does not change their points */
-        struct ceduo_input *input = &f.found[i % f.n].input;
-        if (input->places_count == 0 || ceduo_input_is_future(input) != (i >= f.n))
-            continue;
-        const char *origin = f.found[i % f.n].origin;
-        input->path = strncmp(origin, "slope.materials", 15) == 0 ? origin : make_common_path(file, input);
-        inputs->items[inputs->n++] = *input;
-    }
+    /* inputs of future years last, so that they do not change the points of the others */
+    for (int future = 0; inputs->items && future < 2; future++)
+        for (size_t i = 0; i < f.n; i++) {
+            struct ceduo_input *input = &f.found[i].input;
+            if (input->places_count == 0 || ceduo_input_is_future(input) != future)
+                continue;
+            const char *origin = f.found[i].origin;
+            input->path = strncmp(origin, "slope.materials", 15) == 0 ? origin : make_common_path(file, input);
+            inputs->items[inputs->n++] = *input;
+        }
     return !f.arena->failed;
 }
 
