@@ -43,7 +43,7 @@ static inline void hash_chunk(uint64_t *hash, const char *bytes, size_t n)
 }
 
 /* Return the hash of n bytes, the same on every machine. It detects accidental changes, not malicious ones. */
-static inline uint64_t hash_bytes(const char *bytes, size_t n)
+static inline uint64_t hash_string(const char *bytes, size_t n)
 {
     uint64_t hash = hash_begin(n);
     hash_chunk(&hash, bytes, n);
@@ -73,5 +73,8 @@ static inline uint64_t hash_bytes(const char *bytes, size_t n)
         const double hashed_numbers[] = {__VA_ARGS__};                                                                         \
         hash_array(hash, hashed_numbers);                                                                                      \
     } while (0)
+
+/* Return the hash of n bytes of a string. The product rejects pointers to structs and pointers. */
+#define hash_bytes(bytes, n) hash_string(((void)sizeof(1u * (bytes)[0]), (bytes)), n)
 
 #endif
