@@ -10,7 +10,8 @@ struct rank {
     double *to;
 };
 
-/* Write the values of some ranks, in ascending order of the ranks. Reorders both arrays; no value may be NaN. */
+/* Write the values of some ranks, 1…n in ascending order, of n > 0 values without NaN. Reorders the values, and changes the
+ * ranks. */
 void ceduo_ranks_select(double *values, size_t n, struct rank *ranks, size_t ranks_count);
 
 #endif

@@ -182,8 +182,10 @@ static void load_translation(void)
         const int fd = is_absolute || slash ? open(path, O_RDONLY | O_CLOEXEC) : -1;
         struct stat st;
         if (fd >= 0 && fstat(fd, &st) == 0 && st.st_size > 0) {
-            const char *bytes = mmap(NULL, (size_t)st.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
+            void *bytes = mmap(NULL, (size_t)st.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
             found = bytes != MAP_FAILED && ceduo_language_use(bytes, (size_t)st.st_size);
+            if (!found && bytes != MAP_FAILED)
+                munmap(bytes, (size_t)st.st_size);
         }
         if (fd >= 0)
             close(fd);

@@ -7,13 +7,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <unistd.h>
 
 #include "arguments.h"
 #include "base/language.h"
 #include "base/oom.h"
 #include "base/utf8.h"
+#include "io/file.h"
 #include "messages.h"
 #include "scene/choices.h"
 
@@ -246,9 +246,8 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
  * overwritten. */
 static enum exit_status set_report(struct arguments *a, const struct option_row *row, char *value)
 {
-    const char *dot = strrchr(value, '.');
     bool standard = strcmp(value, "-") == 0;
-    if (!standard && !(dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0)))
+    if (!standard && !ceduo_file_is_html(value))
         return ceduo_usage_error(row->name,
                                  _("'%s' does not end in .html or .htm; name the page, or - for standard output, then the "
                                    "scenes: --report page.html scene.yaml"),

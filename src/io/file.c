@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -378,6 +379,12 @@ bool ceduo_file_is_same(const char *a, const char *b)
     struct stat x, y;
     return stat(a, &x) == 0 && (is_standard(b) ? fstat(STDIN_FILENO, &y) : stat(b, &y)) == 0 && S_ISREG(x.st_mode) &&
            x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+bool ceduo_file_is_html(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0);
 }
 
 bool ceduo_file_can_write(const char *path)

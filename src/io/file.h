@@ -64,6 +64,9 @@ void ceduo_file_abort(struct pending_file *file);
 /* True if two paths lead to one regular file. `b` may be "-", standard input. */
 bool ceduo_file_is_same(const char *a, const char *b);
 
+/* True if the name of a file is that of a page: it ends in .html or .htm. */
+bool ceduo_file_is_html(const char *path);
+
 /* True if ceduo_file_write() is expected to succeed; nothing is written. Return false with errno set. */
 bool ceduo_file_can_write(const char *path);
 

@@ -36,7 +36,7 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
                         int unused;                                                                                            \
                     }))
 
-/* Unit of a number, `si` SI units in it, and range of the number in that unit. */
+/* Unit of a number, its size `si` in SI units, and the range of the number in that unit. */
 #define SCALED_RANGE(unit_name, si, min, max) .unit = unit_name, .scale = si, .lo = min, .hi = max
 #define RANGE(unit_name, min, max)            SCALED_RANGE(unit_name, 1, min, max)
 #define NO_RANGE                              RANGE("", -INFINITY, INFINITY)

@@ -108,9 +108,8 @@ static bool submit_export(struct app *app, struct popup *p)
 {
     const char *path = p->fields[0].line.text;
     enum export_kind kind = (enum export_kind)atoi(p->target);
-    const char *dot = strrchr(path, '.');
     LOCAL_TEXT(text);
-    if (kind == EXPORT_REPORT && !(dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0))) {
+    if (kind == EXPORT_REPORT && !ceduo_file_is_html(path)) {
         ceduo_app_warn(app, _("'%s' does not end in .html or .htm"), path);
         return false;
     }

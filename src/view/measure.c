@@ -6,6 +6,7 @@
 
 #include "base/language.h"
 #include "core/runs/assess.h"
+#include "core/runs/fence.h"
 #include "core/runs/hazard.h"
 #include "core/runs/statistics.h"
 #include "report.h"
@@ -128,11 +129,9 @@ struct ceduo_measure ceduo_measure_fence(enum ceduo_fence_share what, const stru
                                    [CEDUO_FENCE_BOTH] = {N_("over and through"), N_("both above and too much energy")},
                                    [CEDUO_FENCE_DEFEATED] = {N_("fence beaten"), N_("defeat the fence")},
                                    [CEDUO_FENCE_WORN] = {N_("wear it"), N_("held, with over a third of its energy")}};
-    const struct ceduo_fence_arrivals no_fence = {0}, *found = ceduo_fence_find(a), *f = found ? found : &no_fence;
-    const struct ceduo_estimate none = CEDUO_NO_ESTIMATE;
-    const struct ceduo_estimate *const shares[] = {&f->above, &f->through, &f->both, &f->defeated, &f->worn};
-    const struct ceduo_estimate *share = found ? shares[what] : &none;
-    struct ceduo_measure m = make_share(ceduo_share_of(a, *share), share->lo, share->hi);
+    const struct ceduo_fence_arrivals *found = ceduo_fence_find(a), f = found ? *found : ceduo_fence_none();
+    const struct ceduo_estimate shares[] = {f.above, f.through, f.both, f.defeated, f.worn}, share = shares[what];
+    struct ceduo_measure m = make_share(ceduo_share_of(a, share), share.lo, share.hi);
     m.names[CEDUO_HEAD] = m.names[CEDUO_SHORT_HEAD] = m.names[CEDUO_ROW] = names[what].name;
     m.names[CEDUO_PHRASE] = names[what].phrase;
     return m;

@@ -352,13 +352,12 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
 
 const double *ceduo_run_samples(const struct ceduo_run *run, size_t control, enum ceduo_sample quantity)
 {
-    static const enum quantity column[] = {
-        [CEDUO_SAMPLE_SPEED] = SPEED, [CEDUO_SAMPLE_HEIGHT] = HEIGHT, [CEDUO_SAMPLE_ENERGY] = ENERGY};
+    static const int column[] = {[CEDUO_SAMPLE_SPEED] = SPEED, [CEDUO_SAMPLE_HEIGHT] = HEIGHT, [CEDUO_SAMPLE_ENERGY] = ENERGY};
     if (quantity == CEDUO_SAMPLE_WEIGHT)
         return run->weights;
     if (quantity == CEDUO_SAMPLE_STOP)
         return get_stops(run);
-    return control < run->controls ? get_samples(run, control, (int)column[quantity]) : NULL;
+    return control < run->controls ? get_samples(run, control, column[quantity]) : NULL;
 }
 
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t max)

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/ranks.h"
 #include "prepared.h"
+#include "strike.h"
 
 /* Values of the rocks that pass a place. */
 struct passing_values {
@@ -20,7 +21,7 @@ static void add_rock(struct passing_values *to, const struct ceduo_rock *rock, c
 {
     if (!c->reached)
         return;
-    double energy = 0.5 * rock->mass * (c->vx * c->vx + c->vz * c->vz) + 0.5 * rock->moment * (c->spin * c->spin);
+    double energy = flying_energy(rock->mass, rock->moment, c->vx, c->vz, c->spin);
     to->height[to->n] = c->height;
     to->energy[to->n++] = energy;
     to->energy_sum += energy;
