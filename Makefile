@@ -71,7 +71,7 @@ OPTIMISE_tsan := -O1 -g1 -Dalways_inline=unused -fsanitize=thread
 # Conditions are counted before the compiler moves any; a forcibly inlined function would be counted once per caller. Counts
 # are not atomic, which would be seven times slower: each test has one processor, so that one thread runs at a time.
 OPTIMISE_cov = -O2 -g1 -Dalways_inline=unused -fcoverage-mapping $(call quoted,-fprofile-instr-generate=$(CURDIR)/$(BUILD)/counts/%m.profraw)
-OPTIMISE_fuzz := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+OPTIMISE_fuzz := -O1 -g -Dalways_inline=unused -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 CFLAGS ?= $(OPTIMISE_$(VARIANT))
 # -ffp-contract=off: fused multiply-adds would give different bits on different machines.
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=off -pthread \
