@@ -213,10 +213,9 @@ def test_paste_list():
         t.keys("?")
         t.sees("Figures and pictures follow every edit at once")
         paste(t, "q")
-        time.sleep(PAUSE)
-        t.sees("Figures and pictures follow every edit at once")
+        t.sees("Figures and pictures follow every edit at once", "nothing pasted")
         t.keys("Escape")
-        t.sees("nothing pasted")
+        t.sees("Belts of forest", lacks=("Figures and pictures", "nothing pasted"))
 
 
 def test_paste_without_end():
