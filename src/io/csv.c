@@ -351,7 +351,7 @@ bool ceduo_csv_read_head(struct csv *csv)
     if (!read_filled(csv))
         return ceduo_problem(csv->problems, csv->source, 0, 0, _("the file is empty"));
     set_heads(csv);
-    return !csv->bad;
+    return !csv->bad && csv->heads;
 }
 
 void ceduo_csv_begin_headless(struct csv *csv, char separator)
