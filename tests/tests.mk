@@ -159,7 +159,8 @@ net: all $(TABLES) $(COMPLETION)
 
 # ---- check-all ----
 
-# Takes two and a half hours on two cores. Parts that have passed are skipped until a file that they read changes: tests/all.
+# Takes eleven hours of processor, seven of them for the scenes. Parts that have passed are skipped until a file that they read
+# changes: tests/all.
 # ONLY='threads memory': only these. MORE: parts that run only if ONLY names them.
 PARTS_OF_ALL := check sanitizers manual scenes clang threads memory arm slurm dist deb lint
 MORE_OF_ALL := coverage fuzz stress

@@ -75,8 +75,8 @@ def test_changed_files(tree):
     tree.expect_run(PARTS, "first")
     tree.expect_run((), "unchanged")
     for name, parts in (("man/ceduo.1", PARTS[:1]), ("src/po/man/it.po", PARTS[:1]), ("src/po/it.po", PARTS[:2]),
-                        ("man/examples/a.py", PARTS[:2]), ("tests/cli/test_a.py", PARTS[:3]), ("tests/run", PARTS),
-                        ("src/base/a.c", PARTS), ("src/base/new.c", PARTS), ("new.md", PARTS[:1])):
+                        ("man/examples/a.py", PARTS[:2]), ("tests/fuzz/found/a/b", PARTS[:2]), ("tests/cli/test_a.py", PARTS[:3]),
+                        ("tests/run", PARTS), ("src/base/a.c", PARTS), ("src/base/new.c", PARTS), ("new.md", PARTS[:1])):
         tree.write(name, "changed")
         tree.expect_run(parts, name)
     if tree.git:
