@@ -82,7 +82,7 @@ size_t ceduo_csv_column(const struct csv *csv, const struct csv_head *head, cons
  * below it. Set columns[i] for each head. Report duplicate columns. The file stays foreign unless a head is found. */
 void ceduo_csv_find_head(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns);
 
-/* Read the first line that is not blank as the head. Report bad bytes and an empty file. Return false then, and if memory fails. */
+/* Read the first line that is not blank as the head. Report bad bytes and an empty file. Return false if there is no head. */
 bool ceduo_csv_read_head(struct csv *csv);
 
 /* Begin a table without a head: its first row is the first record that is not blank. */

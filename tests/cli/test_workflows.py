@@ -337,7 +337,7 @@ def test_four_systems_in_italian():
             screen = (work.path / name).read_text(encoding="utf-8")
             expect_in(f"{figure} m", page)
             expect(re.search(rf"ADC m +{figure} +< 30 {light}", screen), screen)
-        expect_in("380", screen)
+        expect_in("380 fusti/ha", screen)
 
 
 # ---- two cuts ----
