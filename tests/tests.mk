@@ -168,7 +168,7 @@ MORE_OF_ALL := coverage fuzz stress
 check-all:
 	$(call need,$(DEBIAN_FUZZ) gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user valgrind slurmctld slurmd slurm-client munge \
 	    chromium tidy poppler-utils)
-	@+MAKE="$(MAKE) --no-print-directory" PARTS="$(PARTS_OF_ALL)" MORE="$(MORE_OF_ALL)" tests/all $(ONLY)
+	@+MAKE="$(MAKE)" PARTS="$(PARTS_OF_ALL)" MORE="$(MORE_OF_ALL)" tests/all $(ONLY)
 
 all-check:
 	@+$(MAKE) --no-print-directory FULL=1 check
