@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
+#include <malloc.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -87,7 +88,8 @@ int main(int argc, char **argv)
         if (fcntl(fd, F_GETFD) < 0)
             open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
     ceduo_language_start();
-    signal(SIGXFSZ, SIG_IGN); /* a file size limit becomes an error like a full disk */
+    mallopt(M_TOP_PAD, 32 << 20); /* keep freed memory, which the next short run needs again */
+    signal(SIGXFSZ, SIG_IGN);     /* a file size limit becomes an error like a full disk */
     gsl_set_error_handler(on_gsl_error);
     static enum exit_status (*const commands[])(const struct arguments *arguments) = {
         [MODE_TERMINAL] = interact,

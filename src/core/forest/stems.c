@@ -321,13 +321,14 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     s->b = b;
     s->start = x;
     s->behind_ready = false;
+    if (s->drawn > 0) /* the last rock may have hit stools */
+        memset(s->hit_stools, 0, (s->forest->met_mask + 1) * sizeof *s->hit_stools);
     s->drawn = s->effort = 0;
     s->pause = PAUSE_EFFORT;
     for (int i = 0; i < 2; i++) {
         s->side[i].first = s->side[i].end = 0;
         s->side[i].unequal_to = -INFINITY;
     }
-    memset(s->hit_stools, 0, (s->forest->met_mask + 1) * sizeof *s->hit_stools);
     reset_side(s, 0, x, 1);
     find_next(s, 0);
     bool any = s->forest->sides[0][0].from < x + fmax(s->forest->reach, s->forest->group_reach);
@@ -371,8 +372,11 @@ void ceduo_stems_mark_hit_behind(struct stems *s, uint64_t stool)
 
 /* ---- making and freeing ---- */
 
-bool ceduo_stems_init(struct stems *stems, const struct forest *forest, enum ceduo_kernel kernel)
+struct stems *ceduo_stems_create(const struct forest *forest, enum ceduo_kernel kernel)
 {
+    struct stems *stems = calloc(1, sizeof *stems);
+    if (!stems)
+        return NULL;
     stems->forest = forest;
     stems->kernel = ceduo_kernel(kernel);
     bool good = true;
@@ -388,18 +392,20 @@ bool ceduo_stems_init(struct stems *stems, const struct forest *forest, enum ced
     stems->hit_stools = calloc(forest->met_mask + 1, sizeof *stems->hit_stools);
     stems->rates = calloc(forest->belts + 1, sizeof *stems->rates);
     if (good && stems->hit_stools && stems->rates)
-        return true;
-    ceduo_stems_release(stems);
-    return false;
+        return stems;
+    ceduo_stems_free(stems);
+    return NULL;
 }
 
-void ceduo_stems_release(struct stems *stems)
+void ceduo_stems_free(struct stems *stems)
 {
+    if (!stems)
+        return;
     for (int i = 0; i < 2; i++) {
         free(stems->side[i].queue);
         free(stems->side[i].groups);
     }
     free(stems->hit_stools);
     free(stems->rates);
-    *stems = (struct stems){0};
+    free(stems);
 }

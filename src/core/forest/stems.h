@@ -20,9 +20,9 @@ static inline bool ceduo_stems_too_many(const struct stems *stems)
     return stems->effort > CEDUO_STEMS_MAX;
 }
 
-/* Initialise `stems`, which must be zeroed: it is large, and mostly never touched. False without memory. */
-bool ceduo_stems_init(struct stems *stems, const struct forest *forest, enum ceduo_kernel kernel);
-void ceduo_stems_release(struct stems *stems);
+/* Allocate the stems of one rock at a time. NULL without memory. `forest` must live as long. */
+struct stems *ceduo_stems_create(const struct forest *forest, enum ceduo_kernel kernel);
+void ceduo_stems_free(struct stems *stems);
 
 /* Begin the trajectory of rock `number`, of mean diameter b (m), released at x. */
 void ceduo_stems_begin(struct stems *stems, uint64_t seed, uint64_t number, double b, double x);

@@ -20,8 +20,7 @@ struct arrival {
  * end. */
 struct worker {
     struct ceduo_run *run;
-    struct walker *walkers; /* one per lane */
-    struct stems *stems;    /* likewise; NULL: no forest */
+    struct walker *walkers; /* one per lane, with its stems, unless the chunk has fewer rocks than lanes */
     struct walker first;    /* a rock at its release, the template if all rocks are identical */
     struct batch *batch;
     uint64_t from, next, to;               /* rocks of the batch: first, next to release, one past the last */
@@ -125,7 +124,7 @@ static void sum_arrivals(struct worker *w, size_t control)
             continue;
         for (int q = 0; q < (spins ? QUANTITIES : TRANSLATION); q++)
             ceduo_moments_add(&to->moments[q], arrivals[i].values[q]);
-        if (w->stems)
+        if (!run->prepared.forest.bare)
             ceduo_moments_add(&to->contacts, arrivals[i].stems_hit);
         to->exceeded += arrivals[i].exceeds;
     }
@@ -172,7 +171,8 @@ static int simulate_batch(void *context, size_t i, size_t worker)
     w->from = w->next = from < chunk->first ? chunk->first : from;
     w->to = to > chunk->end ? chunk->end : to;
     w->batch = &run->slots[i];
-    memset(w->arrivals, 0, run->controls * CEDUO_BATCH_ROCKS * sizeof *w->arrivals);
+    for (size_t c = 0; c < run->controls; c++)
+        memset(&w->arrivals[c * CEDUO_BATCH_ROCKS], 0, (size_t)(w->to - w->from) * sizeof *w->arrivals);
     memset(w->ends, CEDUO_END_UNFINISHED, sizeof w->ends);
     for (size_t k = 0; k < CEDUO_BATCH_ROCKS; k++)
         w->stops[k] = NAN;
@@ -206,14 +206,11 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     for (size_t i = 0; i < run->lanes; i++)
         w->walkers[i] = (struct walker){
             .cross = on_cross, .context = w, .arrivals_only = run->def.arrivals_only, .cancel = run->def.cancel};
-    if (!run->prepared.forest.bare && !(w->stems = calloc(run->lanes, sizeof *w->stems)))
-        return false;
-    for (size_t i = 0; w->stems && i < run->lanes; i++) {
-        if (!ceduo_stems_init(&w->stems[i], &run->prepared.forest, run->def.kernel))
-            return false;
-        w->walkers[i].stems = &w->stems[i];
-    }
-    return true;
+    size_t lanes = chunk->end - chunk->first < run->lanes ? (size_t)(chunk->end - chunk->first) : run->lanes;
+    bool good = true;
+    for (size_t i = 0; !run->prepared.forest.bare && i < lanes; i++)
+        good &= !!(w->walkers[i].stems = ceduo_stems_create(&run->prepared.forest, run->def.kernel));
+    return good;
 }
 
 static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, unsigned n)
@@ -267,9 +264,8 @@ enum ceduo_status ceduo_run_simulate_chunk(struct ceduo_run *run, uint64_t end)
         for (size_t i = 0; i < chunk.batches; i++)
             ceduo_run_batch_clear(&run->slots[i], run->controls);
     for (struct worker *w = workers; w < workers + n; w++) {
-        for (size_t i = 0; w->stems && i < run->lanes; i++)
-            ceduo_stems_release(&w->stems[i]);
-        free(w->stems);
+        for (size_t i = 0; w->walkers && i < run->lanes; i++)
+            ceduo_stems_free(w->walkers[i].stems);
         free(w->walkers);
         free(w->arrivals);
     }

@@ -22,7 +22,7 @@ static void store_crossing(void *context, const struct walker *w, size_t mark, c
 
 struct ceduo_tracer {
     struct prepared_scene prepared;
-    struct stems stems;
+    struct stems *stems;
 };
 
 struct ceduo_tracer *ceduo_tracer_create(const struct ceduo_scene *scene, const struct ceduo_option *option)
@@ -31,7 +31,7 @@ struct ceduo_tracer *ceduo_tracer_create(const struct ceduo_scene *scene, const 
     if (!f)
         return NULL;
     if (ceduo_prepared_init(&f->prepared, scene, option) == CEDUO_OK &&
-        ceduo_stems_init(&f->stems, &f->prepared.forest, CEDUO_KERNEL_BEST))
+        (f->stems = ceduo_stems_create(&f->prepared.forest, CEDUO_KERNEL_BEST)))
         return f;
     ceduo_tracer_free(f);
     return NULL;
@@ -45,7 +45,7 @@ enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *f, uint64_t rock, const 
     struct walker w = {.callbacks = callbacks,
                        .cross = store_crossing,
                        .context = &crossing_writer,
-                       .stems = f->prepared.forest.bare ? NULL : &f->stems};
+                       .stems = f->prepared.forest.bare ? NULL : f->stems};
     if (crossings)
         memset(crossings, 0, scene->controls_count * sizeof *crossings);
     enum ceduo_status status = ceduo_walk_release(&w, &f->prepared, rock);
@@ -60,7 +60,7 @@ enum ceduo_status ceduo_tracer_run(struct ceduo_tracer *f, uint64_t rock, const 
     to->stems_hit = w.stems_hit;
     to->stools_met = w.stools_met;
     to->stems_drawn = w.stems ? w.stems->drawn : 0;
-    if (f->stems.no_memory) /* also for stems that the rock does not reach */
+    if (f->stems->no_memory) /* also for stems that the rock does not reach */
         return CEDUO_NO_MEMORY;
     return w.cancelled ? CEDUO_CANCELLED : CEDUO_OK;
 }
@@ -69,7 +69,7 @@ void ceduo_tracer_free(struct ceduo_tracer *f)
 {
     if (!f)
         return;
-    ceduo_stems_release(&f->stems);
+    ceduo_stems_free(f->stems);
     ceduo_prepared_release(&f->prepared);
     free(f);
 }
