@@ -232,6 +232,8 @@ TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
                  "sampling error");
     struct ceduo_control two[2] = {control, control};
     struct ceduo_arrivals bares[2] = {bare, bare}, woodeds[2] = {wooded, wooded};
+    struct ceduo_alternative_energy others[2] = {other, other};
+    struct ceduo_index indices[2] = {index_, index_};
     struct ceduo_years_summary aheads[2] = {years, years};
     static char road[] = "road";
     two[1].name = road;
@@ -240,6 +242,8 @@ TEST_WITH(the_answer_names_years_cuts_and_places, open_site, NULL)
     result.bare.arrivals = bares;
     result.bare.controls = 2;
     option_result.wooded.arrivals = woodeds;
+    option_result.alternatives = others;
+    option_result.controls = indices;
     choice.summaries = aheads;
     result.last_control = 1;
     expect_words(1, 60, "road (80 m): ✔ YES, also without forest: 4 of 1000 > 50 kJ");
