@@ -159,7 +159,7 @@ net: all $(TABLES) $(COMPLETION)
 
 # ---- check-all ----
 
-# Takes eleven hours of processor, seven of them for the scenes. Parts that have passed are skipped until a file that they read
+# Takes seven hours of processor, three of them for the scenes. Parts that have passed are skipped until a file that they read
 # changes: tests/all.
 # ONLY='threads memory': only these. MORE: parts that run only if ONLY names them.
 PARTS_OF_ALL := check sanitizers manual scenes clang threads memory arm slurm dist deb lint

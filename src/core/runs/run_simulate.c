@@ -206,11 +206,11 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     for (size_t i = 0; i < run->lanes; i++)
         w->walkers[i] = (struct walker){
             .cross = on_cross, .context = w, .arrivals_only = run->def.arrivals_only, .cancel = run->def.cancel};
-    size_t lanes = chunk->end - chunk->first < run->lanes ? (size_t)(chunk->end - chunk->first) : run->lanes;
-    bool good = true;
-    for (size_t i = 0; !run->prepared.forest.bare && i < lanes; i++)
-        good &= !!(w->walkers[i].stems = ceduo_stems_create(&run->prepared.forest, run->def.kernel));
-    return good;
+    uint64_t rocks = run->prepared.forest.bare ? 0 : chunk->end - chunk->first;
+    for (size_t i = 0; i < run->lanes && i < rocks; i++)
+        if (!(w->walkers[i].stems = ceduo_stems_create(&run->prepared.forest, run->def.kernel)))
+            return false;
+    return true;
 }
 
 static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, unsigned n)
