@@ -3,7 +3,6 @@
  * row has a geometry. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include "cli/batch.h"
@@ -53,11 +52,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static FILE *none;
     if (!none) /* discard messages */
         stderr = none = fopen("/dev/null", "w");
-    char path[64];
-    int fd = memfd_create("fuzz", MFD_CLOEXEC);
-    if (fd < 0 || write(fd, data, size) != (ssize_t)size)
-        abort();
-    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+    char path[FUZZ_PATH_SIZE];
+    int fd = fuzz_make_file(data, size, path);
     check_table(path, NULL, CEDUO_JSON);
     check_table(path, "id", CEDUO_GEOJSON);
     close(fd);

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include "fuzz.h"
@@ -66,7 +65,7 @@ static void set_up(void)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char path[64], *text = malloc(size + 1);
+    char path[FUZZ_PATH_SIZE], *text = malloc(size + 1);
     if (!text)
         return 0;
     set_up();
@@ -78,10 +77,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             text[i] = 'j';
     for (char *p = text; (p = strstr(p, "wait")) || (p = strstr(text, "dump -")) || (p = strstr(text, "roles -"));)
         *p = '#'; /* 100 000 rocks take too long, and standard output must stay clean */
-    int fd = memfd_create("fuzz", MFD_CLOEXEC);
-    if (fd < 0 || write(fd, text, size) != (ssize_t)size)
-        abort();
-    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+    int fd = fuzz_make_file(text, size, path);
     struct app app;
     if (!ceduo_program_create(&app, "fuzz.yaml", CEDUO_CHARSET_BRAILLE, 1, true))
         abort();
