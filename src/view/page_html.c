@@ -110,7 +110,7 @@ static const char style[] =
     ".head{grid-template-columns:max-content 1fr max-content 1fr;gap:1mm 4mm;padding:1.5mm 0;border:solid #4a4a4a;"
     "border-width:.2mm 0}\n"
     ".line{border-bottom:.3mm solid #1c1c1c;min-height:5.5mm}\n"
-    "ul{margin:1mm 0;padding-left:5mm}\n"
+    "ul{margin:1mm 0;padding-left:5mm;font-size:8.25pt;line-height:1.18}\n"
     "table{border-collapse:collapse;width:100%;margin:1.2mm 0 2mm;font-size:8.25pt;line-height:1.18;"
     "font-variant-numeric:tabular-nums;break-inside:avoid}\n"
     "caption{text-align:left;padding-bottom:1mm;font-size:9pt;font-weight:bold}\n"

@@ -21,6 +21,7 @@
 #define PROFILE_ROWS    24  /* rows of the slope above the strips, */
 #define PAIR_ROWS       18  /* and of two slopes next to each other, */
 #define CROWDED_ROWS    12  /* also above the table of many options */
+#define FENCE_ROWS      3   /* of the slope, which the sentences on a fence need */
 
 static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int columns, int rows,
                         const struct ceduo_picture *picture, const char *description)
@@ -181,7 +182,8 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
     bool pair = best != present;
     int columns = pair ? HALF_CELLS : FULL_CELLS;
     int profile = scene->options_count > CROWDED_OPTIONS ? CROWDED_ROWS : pair ? PAIR_ROWS : PROFILE_ROWS;
-    int rows = profile + HEIGHT_ROWS + ENERGY_ROWS;
+    bool fence = scene->controls_count > 0 && ceduo_fence_stands(&scene->controls[report->result->last_control].fence);
+    int rows = profile + HEIGHT_ROWS + ENERGY_ROWS - (fence ? FENCE_ROWS : 0);
     struct ceduo_picture picture = make_picture(report, best);
     LOCAL_TEXT(title);
     if (scene->options_count < 2)

@@ -43,6 +43,16 @@ LOOK = r"""
     }
     return [255, 255, 255];
   };
+  // Returns the fill of the last rectangle drawn below a text of a picture, or what is behind the picture.
+  const ground = (e, svg) => {
+    const t = e.getBoundingClientRect(), middle = (t.top + t.bottom) / 2;
+    for (let r = e.previousElementSibling; r; r = r.previousElementSibling) {
+      const b = r.getBoundingClientRect(), fill = getComputedStyle(r).fill;
+      const below = b.left < t.left + 1 && b.right > t.right - 1 && b.top < middle && b.bottom > middle;
+      if (r.tagName === 'rect' && fill !== 'none' && below) return rgba(fill).slice(0, 3);
+    }
+    return paper(svg);
+  };
   const boxes = [];
   const right = document.body.getBoundingClientRect().right + 1;
   for (const e of document.querySelectorAll('body *:not(script):not(style):not(title):not(desc)')) {
@@ -51,7 +61,7 @@ LOOK = r"""
     found.texts++;
     const style = getComputedStyle(e), svg = e.closest('svg');
     const ink = rgba(svg ? style.fill : style.color).slice(0, 3);
-    const [a, b] = [luminance(ink), luminance(paper(e))].sort((x, y) => y - x);
+    const [a, b] = [luminance(ink), luminance(svg ? ground(e, svg) : paper(e))].sort((x, y) => y - x);
     if ((a + .05) / (b + .05) < 4.5) say('contrast ' + ((a + .05) / (b + .05)).toFixed(2), e);
     if (!svg && (e.scrollWidth > e.clientWidth + 1) && style.display !== 'inline') say('clipped', e);
     const within = svg ? svg.getBoundingClientRect() : {left: -1, right, top: -1, bottom: 1e9};
@@ -130,10 +140,11 @@ def check_paper(folder, path):
                 if min(a[2], b[2]) - max(a[0], b[0]) > 1 and min(a[3], b[3]) - max(a[1], b[1]) > 0.5 * min(a[3] - a[1], b[3] - b[1])]
         expect(not over, f"{path.name}, page {number}: over one another", over[:5])
     # the two tables of percentiles, with and without forest, are on one sheet
-    flat = [" ".join(w[4] for w in words) for _, _, words in pages]
-    for page in flat:
-        heads = [len(re.findall(rf"\b{word}, \d+ (?:of|di) \d+", page)) for word in ("(?:wood|bosco)", "(?:bare|senza)")]
-        expect_equal(heads[0], heads[1], f"{path.name}: a table cut from its other half")
+    heads = [[len(re.findall(rf"\b(?:{word}), \d+ (?:of|su) \d+", " ".join(w[4] for w in words)))
+              for word in ("forest|bosco", "without|senza")] for _, _, words in pages]
+    expect(all(n == others for n, others in heads), f"{path.name}: a table cut from its other half", heads)
+    tables = re.findall(r">(?:without|senza), \d+ (?:of|su) \d+", path.read_text(encoding="utf-8"))
+    expect_equal(sum(n for n, _ in heads), len(tables), path.name)
 
 
 def check_report(scene, language, *more):
