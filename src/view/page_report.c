@@ -27,7 +27,7 @@ static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int colum
                         const struct ceduo_picture *picture, const char *description)
 {
     struct ceduo_svg *svg = ceduo_svg_create(columns, rows);
-    struct ceduo_area area = {.width = columns, .height = rows};
+    struct ceduo_area area = {.width = columns - 1, .height = rows}; /* a browser's sign may be wider than a cell */
     ceduo_plot_draw(plot, ceduo_svg_canvas(svg), &area, picture);
     struct ceduo_page_block *block = ceduo_page_picture(page, svg, columns == HALF_CELLS);
     ceduo_plot_title(&block->text, plot, picture);
