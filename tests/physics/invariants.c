@@ -90,11 +90,24 @@ static void check_flight_depth(struct checker *w, const struct ceduo_trajectory_
     check_depth(w, j, hi, z_hi);
 }
 
+/* Return the size of the coordinates from which a place on the ground is computed. Those of the ends of its segment may be far
+ * larger than its own. */
+static double size_of_coordinates(const struct ceduo_slope *s, double x, double z)
+{
+    size_t j = ceduo_slope_segment(s, x);
+    double size = fabs(x) + fabs(z);
+    for (size_t i = j > 0 && x == s->x[j] ? j - 1 : j; i <= j + 1; i++)
+        size = fmax(size, fabs(s->x[i]) + fabs(s->z[i]));
+    return size;
+}
+
 static void check_flight(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
+    const struct ceduo_slope *s = &w->scene->scene.slope;
     double g = w->scene->scene.simulation.gravity;
     double v2 = (p->vx * p->vx + p->vz * p->vz) / 2, v2_end = (p->vx1 * p->vx1 + p->vz1 * p->vz1) / 2;
-    double scale = v2 + g * (fabs(p->x) + fabs(p->z)), scale_end = v2_end + g * (fabs(p->x1) + fabs(p->z1));
+    double scale = v2 + g * size_of_coordinates(s, p->x, p->z);
+    double scale_end = v2_end + g * size_of_coordinates(s, p->x1, p->z1);
     double error = fabs((v2 + g * p->z) - (v2_end + g * p->z1));
     if (error > 0)
         w->energy_off = fmax(w->energy_off, error / fmax(scale, scale_end));
@@ -117,14 +130,15 @@ static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct
 /* On the ground a rock gains at most its drop. */
 static void check_roll(struct checker *w, const struct ceduo_trajectory_segment *p)
 {
+    const struct ceduo_slope *s = &w->scene->scene.slope;
     double g = w->scene->scene.simulation.gravity, share = (1 + w->k) / 2;
     double before = share * (p->vx * p->vx + p->vz * p->vz), after = share * (p->vx1 * p->vx1 + p->vz1 * p->vz1);
     double gained = (after + g * p->z1) - (before + g * p->z);
-    double scale = fmax(before + g * (fabs(p->x) + fabs(p->z)), after + g * (fabs(p->x1) + fabs(p->z1)));
+    double scale = fmax(before + g * size_of_coordinates(s, p->x, p->z), after + g * size_of_coordinates(s, p->x1, p->z1));
     if (gained > 0)
         w->energy_off = fmax(w->energy_off, gained / scale);
     /* the middle may round to the far end, and so to the next segment */
-    size_t j = ceduo_slope_segment(&w->scene->scene.slope, fmin(p->x, p->x1));
+    size_t j = ceduo_slope_segment(s, fmin(p->x, p->x1));
     check_roll_depth(w, j, p->x, p->z);
     check_roll_depth(w, j, p->x1, p->z1);
 }
