@@ -20,7 +20,7 @@ bool ceduo_memory_failed(void);
 /* Return `allocated`; end the program if it is NULL. */
 static inline void *ceduo_check_memory(void *allocated)
 {
-    if (!allocated) {
+    if (!allocated) { /* untaken: end */
         ceduo_oom_set_flag();
         abort();
     }

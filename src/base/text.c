@@ -133,7 +133,7 @@ __attribute__((format(printf, 2, 0))) static void format_plain(struct text *text
 static size_t localized_length(const char *format)
 {
     size_t n = strncmp(format, "%'", 2) == 0 ? 2 + strspn(format + 2, "-+ #.*0123456789") : 0;
-    return n > 0 && format[n] && strchr("efg", format[n]) ? n : 0;
+    return n > 0 && memchr("efg", format[n], 3) ? n : 0;
 }
 
 /* Print each number of a %' format between two marks, and then replace the dots between marks. */

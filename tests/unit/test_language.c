@@ -3,6 +3,7 @@
 /* Text without a translation, data text, which is never translated, and catalogues. */
 #include "test.h"
 
+#include <errno.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -51,6 +52,31 @@ TEST(a_catalogue_translates)
     assert_string_equal(ceduo_in_language("english", "italian"), "english");
 }
 
+/* The messages of the system in English, which the catalogues translate. */
+TEST(errors_of_the_system_have_texts)
+{
+    static const struct {
+        int error;
+        const char *text;
+    } rows[] = {{ENOENT, "No such file or directory"},
+                {EACCES, "Permission denied"},
+                {EPERM, "Operation not permitted"},
+                {EISDIR, "Is a directory"},
+                {ENOTDIR, "Not a directory"},
+                {EEXIST, "File exists"},
+                {ENOSPC, "No space left on device"},
+                {EDQUOT, "Disk quota exceeded"},
+                {EFBIG, "File too large"},
+                {EROFS, "Read-only file system"},
+                {EIO, "Input/output error"},
+                {ENAMETOOLONG, "File name too long"},
+                {ELOOP, "Too many levels of symbolic links"},
+                {EBADF, "Bad file descriptor"},
+                {EMFILE, "Too many open files"}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        assert_string_equal(ceduo_error_text(rows[i].error), rows[i].text);
+}
+
 TEST(a_damaged_catalogue_is_refused)
 {
     char bytes[TEXTS + sizeof texts];
@@ -63,5 +89,8 @@ TEST(a_damaged_catalogue_is_refused)
         assert_int_equal(ceduo_language_use(bytes, sizeof bytes), i == sizeof(uint32_t)); /* the revision */
         assert_string_equal(P_("head", "none"), "none");
     }
+    make_catalogue(bytes);
+    bytes[TEXTS + 16] = 'x'; /* the end of the first text */
+    assert_false(ceduo_language_use(bytes, sizeof bytes));
     ceduo_language_use(NULL, 0);
 }

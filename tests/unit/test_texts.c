@@ -127,6 +127,9 @@ static void expect_spoken(const char *format, double value, const char *wanted)
 
 TEST(numbers_of_the_language)
 {
+    LOCAL_TEXT(whole);
+    format_any(&whole, "%'d rocks", 5); /* a whole number has no decimal separator */
+    assert_string_equal(whole.bytes, "5 rocks");
     expect_spoken("%'.1f m", 1.25, "1.2 m");
     expect_spoken("%'+8.3g|", 2.5, "    +2.5|");
     expect_spoken("%%' of %.1f", 2, "%' of 2.0");

@@ -53,6 +53,18 @@ TEST(columns)
     assert_int_equal(ceduo_utf8_step("\xc3x"), 1);
 }
 
+/* The blanks of Unicode (Zs) but U+1680, and no others. */
+TEST(blanks)
+{
+    static const char *const blanks[] = {
+        " ", "\t", "\xc2\xa0", "\xe2\x80\x80", "\xe2\x80\x8a", "\xe2\x80\xaf", "\xe2\x81\x9f", "\xe3\x80\x80"};
+    static const char *const others[] = {"", "a", "\n", "\xa0", "\xe2\x80\x8b", "\xe2\x80\xb0", "\xe2\x81\xa0", "\xe3\x80\x81"};
+    for (size_t i = 0; i < LENGTH(blanks); i++)
+        EXPECT(ceduo_utf8_blank(blanks[i], strlen(blanks[i])), ==, strlen(blanks[i]));
+    for (size_t i = 0; i < LENGTH(others); i++)
+        EXPECT(ceduo_utf8_blank(others[i], strlen(others[i])), ==, 0);
+}
+
 static void expect_lines(const char *text, size_t width, const char *const *wanted)
 {
     for (; *text; wanted++) {
