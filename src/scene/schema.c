@@ -167,8 +167,11 @@ static enum path_value value_part(const struct field *f, const char *rest)
     struct path_step step;
     bool spread = f->type == FIELD_SPREAD || f->type == FIELD_SPREADS;
     size_t depth = f->type == FIELD_POINTS ? 2 : f->type >= FIELD_NUMBERS || f->type == FIELD_SPREADS ? 1 : 0, steps = 0;
-    while (steps < depth && rest[pos] == '[' && ceduo_path_next(rest, n, &pos, &step) && ceduo_path_index(&step, &item))
+    while (steps < depth && rest[pos] == '[' && ceduo_path_next(rest, n, &pos, &step)) {
+        if (!ceduo_path_index(&step, &item)) /* numbers have no names */
+            return PATH_UNKNOWN;
         steps++;
+    }
     if (pos == n)
         return steps < depth ? PATH_OTHER : f->type == FIELD_WORDS ? PATH_TEXT : PATH_NUMBER;
     if (!spread || steps < depth)
@@ -185,7 +188,7 @@ enum path_value ceduo_schema_value(const char *path)
     const struct field *f = find_row(path, n, &flags);
     if (f)
         return f->type == FIELD_LIST && path[n - 1] == ']' ? PATH_OTHER : path_kind(f);
-    for (; n > 0 && !f; n -= n > 0 && !f) /* the longest prefix with a row */
+    for (; n > 0 && !f; n -= !f) /* the longest prefix with a row */
         f = path[n] == '.' || path[n] == '[' ? find_row(path, n, &flags) : NULL;
     if (!f)
         return source_part(path);

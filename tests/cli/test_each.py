@@ -319,7 +319,8 @@ def test_heads():
                 r = run(f, *words)
                 expect_equal((r.status, r.out), (INPUT, ""), str(r))
                 expect(r.err.startswith(f"rows.csv:1:4: '{head}' is not a path of --set; write '{meant}' to set it"), r.err)
-        for head in ("len [m]", "Nr.", "row.scene", "rock.diameter_m.sd", "rock[0].diameter_m", "controls.x_m", "a.b", "rock.", ".rock", "rock[0"):
+        for head in ("len [m]", "Nr.", "row.scene", "rock.diameter_m.sd", "rock.axes_m[x]", "rock[0].diameter_m", "controls.x_m", "a.b", "rock.", ".rock",
+                     "rock[0"):
             f.write("rows.csv", f"id,{head},rock.mass_kg\n1,2,3\n")
             r = run(f, "-f", "csv")
             expect_equal((r.status, r.out), (INPUT, ""), str(r))

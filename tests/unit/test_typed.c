@@ -86,6 +86,24 @@ TEST(paths_in_words)
     }
 }
 
+/* Kinds of the targets of --set and of the heads of a table, below values and mappings, too. */
+TEST(targets_have_kinds)
+{
+    static const char *const kinds[] = {"unknown", "text", "file", "number", "word", "other"};
+    for (TABLE(row, "unit/typed.txt", "targets")) {
+        enum path_value kind = ceduo_schema_value(row.at[0]);
+        if (strcmp(kinds[kind], row.at[1]) != 0)
+            fail_msg("%s is %s", row.at[0], kinds[kind]);
+    }
+}
+
+TEST(only_known_values_are_settled)
+{
+    assert_true(ceduo_schema_is_settled("simulation.rocks"));
+    assert_false(ceduo_schema_is_settled("rock.diameter_m"));
+    assert_false(ceduo_schema_is_settled("no.such.path"));
+}
+
 static void check_label(void *context, const char *path, const struct field *f)
 {
     (void)context;
