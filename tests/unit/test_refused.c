@@ -75,6 +75,7 @@ TEST(scenes_are_refused)
                                   {&shoots->dbh, NAN, CEDUO_BAD_STAND, 0},
                                   {&shoots->per_ha, -1, CEDUO_BAD_STAND, 0},
                                   {&shoots->per_ha, NAN, CEDUO_BAD_STAND, 0},
+                                  {&shoots->per_ha, 1e11, CEDUO_BAD_STAND, 0},
                                   {&shoots->height, 0, CEDUO_BAD_STAND, 0},
                                   {&site.plots[1].trees.per_ha, 1e300, CEDUO_BAD_STAND, 0},
                                   {&shoots->dbh_sd, -.01, CEDUO_BAD_STAND, 0},
@@ -124,6 +125,20 @@ TEST(scenes_are_refused)
     EXPECT(ceduo_scene_check(scene, NULL), ==, CEDUO_OK);
     scene->slope.vertices = 1;
     EXPECT(ceduo_scene_check(scene, NULL), ==, CEDUO_BAD_SLOPE);
+}
+
+TEST(releases_are_refused)
+{
+    paper_site_init(&site);
+    struct ceduo_release releases[2] = {site.scene.release, site.scene.release};
+    releases[0].share = releases[1].share = .5;
+    site.scene.releases = releases;
+    site.scene.releases_count = 2;
+    const struct change rows[] = {{&releases[0].share, 0, CEDUO_BAD_NUMBER, 0},
+                                  {&releases[1].share, NAN, CEDUO_BAD_NUMBER, 0},
+                                  {&releases[0].x.mean, -1, CEDUO_RELEASE_OFF_SLOPE, 0},
+                                  {&releases[1].height.mean, -1, CEDUO_RELEASE_BELOW, 0}};
+    expect_refused(rows, LENGTH(rows));
 }
 
 TEST(blocks_are_refused)
@@ -274,6 +289,25 @@ TEST(collinear_segments_are_merged)
     b->roughness_m = NAN;
     b->roughness_rad = .1;
     assert_int_equal(segments_made(), 2);
+}
+
+/* Rocks of different radius compute each roughness of a profile once, an angle or a height. */
+TEST(equal_roughnesses_are_numbered_once)
+{
+    paper_site_init(&site);
+    struct ceduo_segment *s = site.segments;
+    const double angles[] = {.1, NAN, .1, NAN, .2}, heights[] = {NAN, .1, NAN, .1, NAN};
+    const unsigned char numbers[] = {0, 1, 0, 1, 2};
+    site.scene.slope.vertices = LENGTH(angles) + 1;
+    for (size_t i = 0; i < LENGTH(angles); i++) {
+        s[i].roughness_rad = angles[i];
+        s[i].roughness_m = heights[i];
+    }
+    LOCAL_BY(ceduo_ground_release) struct ground g;
+    assert_true(ceduo_ground_init(&g, &site.scene.slope, 9.81, .3, true));
+    EXPECT(g.n, ==, LENGTH(angles));
+    EXPECT(g.roughness_count, ==, 3);
+    assert_memory_equal(g.roughness_index, numbers, LENGTH(numbers));
 }
 
 /* A short segment at more than the tolerated angle to the line stays separate, even if its end lies on the line. */

@@ -349,6 +349,7 @@ TEST(each_bad_argument_is_refused)
     REFUSED(run.kernel, (enum ceduo_kernel)9);
     REFUSED(window, ((struct ceduo_window){CEDUO_WINDOW_GIVEN, 1, 2000000000, 1}));
     REFUSED(window, ((struct ceduo_window){CEDUO_WINDOW_GIVEN, 2, 1, 1}));
+    REFUSED(window, ((struct ceduo_window){CEDUO_WINDOW_GIVEN, 1, 1 + CEDUO_YEARS_MAX, 1}));
     site.belts[0].stand.trees->per_ha = DBL_MAX;
     EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_BAD_STAND);
     open_site();
@@ -413,18 +414,14 @@ TEST(missing_lists_are_refused)
     s->blocks = &blocks;
     s->blocks_count = 1;
     assert_int_equal(ceduo_scene_check(s, NULL), CEDUO_OK);
+    struct ceduo_release releases[] = {s->release};
+    releases[0].share = 1;
+    s->releases = releases;
+    s->releases_count = 1;
     struct ceduo_stand *stand = &site.belts[0].stand;
-    void *const pointers[] = {&blocks.volumes,
-                              &s->blocks,
-                              &s->controls,
-                              &s->options,
-                              &s->slope.x,
-                              &s->slope.z,
-                              &s->slope.segments,
-                              &s->options[0].belts,
-                              &stand->shoots,
-                              &stand->trees,
-                              &stand->cutting.stay_per_ha};
+    void *const pointers[] = {&blocks.volumes,      &s->blocks,     &s->releases,  &s->controls,
+                              &s->options,          &s->slope.x,    &s->slope.z,   &s->slope.segments,
+                              &s->options[0].belts, &stand->shoots, &stand->trees, &stand->cutting.stay_per_ha};
     for (size_t i = 0; i < LENGTH(pointers); i++) {
         void *was, *missing = NULL;
         memcpy(&was, pointers[i], sizeof was);
@@ -445,5 +442,11 @@ TEST(the_requested_number_of_rocks)
     q.rocks = 5000;
     EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_OK);
     EXPECT(ceduo_result_rocks(a.result), ==, 5000);
+    EXPECT(ceduo_result_last_index(a.result, 0)->contacts, >, 0);
+    assert_null(ceduo_result_last_index(a.result, 1)); /* the scene has one option */
+    ceduo_results_release(&a);
+    site.scene.controls_count = 0;
+    EXPECT(ceduo_simulate_request(&q, NULL, &a), ==, CEDUO_OK);
+    assert_null(ceduo_result_last_index(a.result, 0));
     ceduo_results_release(&a);
 }

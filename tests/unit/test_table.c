@@ -464,6 +464,9 @@ TEST(paths_of_numbers_in_lists)
     expect_none(s, "slope.vertices_m[4][1]|slope.vertices_m[a][1]|slope.vertices_m.1[1]|slope.vertices_m[1][1].x|"
                    "rock.axes_m[1].kind|forest[0].stand.cutting.stay_per_ha[2]|forest[0].stand.cutting.stay_per_ha[1].x|"
                    "forest[0].stand.trees[oak].per_ha|controls|controls."); /* stems have no names */
+    /* its vertices are not the points of the file */
+    s->slope.simplified_to = .5;
+    expect_none(s, "slope.vertices_m[1][0]|slope.vertices_m[1][1]");
 }
 
 /* A word is the index of its choice, -1 if it is not given. */

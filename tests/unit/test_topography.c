@@ -105,6 +105,45 @@ TEST(release_and_borders_of_grounds_stay)
     ceduo_slope_simplified_release(&to);
 }
 
+/* A release at a vertex adds no vertex. */
+TEST(a_release_at_a_vertex_keeps_it)
+{
+    static const double points[][2] = {{0, 100}, {10, 90}, {20, 80}, {30, 70}};
+    for (size_t i = 0; i < LENGTH(points); i++) {
+        struct profile p;
+        struct ceduo_slope to;
+        profile_make(&p, LENGTH(points), points, .5);
+        simplify(&p, points[i][0], &to);
+        EXPECT(to.vertices, ==, i == 0 || i + 1 == LENGTH(points) ? 2 : 3);
+        assert_true(has_vertex(&to, points[i][0]));
+        ceduo_slope_simplified_release(&to);
+    }
+}
+
+/* Without a tolerance a simplified profile has all its original points again. */
+TEST(without_a_tolerance_all_points_return)
+{
+    static const double points[][2] = {{0, 100}, {10, 90}, {20, 80}, {30, 70}};
+    struct profile p;
+    struct ceduo_slope to, again;
+    profile_make(&p, LENGTH(points), points, .5);
+    p.slope.points = p.slope.vertices;
+    p.slope.points_x = p.slope.x;
+    p.slope.points_z = p.slope.z;
+    simplify(&p, 0, &to);
+    EXPECT(to.vertices, ==, 2);
+    to.tolerance = 0;
+    assert_int_equal(ceduo_slope_simplify(&to, 0, &again), CEDUO_OK);
+    EXPECT(again.vertices, ==, LENGTH(points));
+    EXPECT(again.simplified_to, ==, 0);
+    for (size_t i = 0; i < LENGTH(points); i++) {
+        EXPECT(again.x[i], ==, points[i][0]);
+        EXPECT(again.z[i], ==, points[i][1]);
+    }
+    ceduo_slope_simplified_release(&to);
+    ceduo_slope_simplified_release(&again);
+}
+
 /* A linear congruential generator of 31 bits. */
 static double draw(unsigned *state)
 {
