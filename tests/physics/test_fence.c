@@ -181,6 +181,9 @@ TEST(percentiles_of_the_arrivals_and_of_the_system)
     bare.reach.mean = 1; /* no stem stops a rock */
     const struct ceduo_fence_arrivals all = read_fence(run, 1, 1, &bare);
     EXPECT_IS(all.system, (energy, all.arriving.energy), (speed, all.arriving.speed), (top, all.arriving.top));
+    bare.reach.mean = NAN; /* unknown: no rock counts as stopped */
+    const struct ceduo_fence_arrivals unknown = read_fence(run, 1, 1, &bare);
+    EXPECT_IS(unknown.system, (energy, all.arriving.energy), (speed, all.arriving.speed), (top, all.arriving.top));
 }
 
 TEST(design_values)

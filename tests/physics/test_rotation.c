@@ -149,6 +149,10 @@ TEST_WITH(no_old_shoots, fresh, NULL)
     EXPECT(grown.stand.shoots[0].per_ha, ==, 7500);
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
     ceduo_grown_stand_release(&grown);
+    s.stand.shoots_count = 0; /* just cut */
+    assert_false(ceduo_stand_sprouts(&s.stand));
+    s.stand.growth.shoots_old = 3;
+    assert_true(ceduo_stand_sprouts(&s.stand));
 }
 
 /* After some 3500 years e^(-t/5) underflows, but each stool keeps a shoot. */

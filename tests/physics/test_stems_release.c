@@ -215,6 +215,22 @@ TEST(stems_around_a_release_do_not_depend_on_the_first_direction)
     EXPECT(astride, >, 40); /* there were some */
 }
 
+/* Rings of 200 shoots with a radius of 30 m: enough around the release to pause drawing. */
+TEST(dense_stools_around_a_release)
+{
+    struct spread met = {0};
+    clear_plane(120);
+    plant_shoots(plant_belt(10, 110, 500, 60 * sin(M_PI / 200)), 1e5, .3);
+    line_scene_release(&plane.line, 60, 1, -1200, 0, 0);
+    for (SWEEP(rock, 300)) {
+        size_t n = 0;
+        for (size_t i = 0; i < sweep.count; i++)
+            n += sweep.stems[i].x > 52; /* all their stools stand in the belt */
+        spread_add(&met, (double)n / 8);
+    }
+    expect_mean("per metre behind the release", &met, per_metre(1e5, B + .3));
+}
+
 /* Far ahead and back: many other stools lie between the two hits of a stool at the release. */
 TEST(a_stool_at_the_release_stays_one_after_a_long_trajectory)
 {

@@ -110,6 +110,10 @@ TEST(the_index_has_stumps_and_logs)
     EXPECT_IS(i, (meet_nothing_probability, 1), (longest_gap, 135));
     EXPECT_NEAR(i.dissipated, 135 * (stumps * 3e3 + logs * 8e3), 1e-6);
     EXPECT_NEAR(i.residual, 1e6 - i.dissipated, 1e-6);
+    belt.stand.stumps.per_ha = 0; /* logs alone */
+    r = ceduo_assess_stand(&site.scene, &belt);
+    EXPECT_NEAR(1 / r.adc_m, logs, 1e-12);
+    assert_true(r.warnings & CEDUO_WARNING_LOW);
 }
 
 /* ---- groups ---- */
@@ -278,6 +282,8 @@ TEST(limits_of_groups)
     belt->stand.trees[0].group = 5; /* thinner than the counted minimum */
     plane.line.scene.simulation.contact_dbh = .5;
     EXPECT(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, ==, 1);
+    plant_trees(belt, 200, .6); /* thicker single trees: only these count */
+    EXPECT_NEAR(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, exp(-12 * per_metre(200, B + .6)), 1e-12);
 }
 
 /* With varying diameters rocks meet as many as of single trees. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs and pools at their limits: parts, and rocks that cannot be drawn or never end. */
+#include "core/runs/fence.h"
 #include "core/runs/pool.h"
 #include "core/runs/result.h"
 #include "core/runs/run.h"
@@ -9,6 +10,7 @@
 #include "local.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "ceduo/ceduo.h"
 #include "core/walk/envelope.h"
@@ -254,6 +256,58 @@ TEST(years_before_they_are_flown)
     assert_true(isnan(s.exceed.mean));
     EXPECT(s.unprotected_contact, ==, 0);
     EXPECT(s.unprotected_energy, ==, 0);
+    struct ceduo_fence_years f = ceduo_years_fence(years, 0, &bare.arrivals[0]);
+    EXPECT(f.years, ==, 0);
+    EXPECT_NAN(f.mean.mean, f.worst.mean, f.per_year);
+}
+
+/* A pool with fewer rocks than requested: each year has these. */
+TEST(years_have_at_most_the_rocks_of_the_pool)
+{
+    paper_site_init(&site);
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.rocks_max = 20;
+    LOCAL(ceduo_run, run) = make_run(&def, 20);
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare;
+    LOCAL(ceduo_pool, pool);
+    LOCAL(ceduo_years, years);
+    assert_int_equal(ceduo_simulated_read(run, &site.scene, NULL, &bare), CEDUO_OK);
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 1, .step = 1}, &years),
+                     CEDUO_OK);
+    assert_int_equal(ceduo_years_simulate(years, pool, &bare, 30), CEDUO_OK);
+    for (size_t i = 0; i < years->count; i++)
+        EXPECT(years->years[i].wooded.rocks, ==, 20);
+    EXPECT(years->rocks, ==, 20);
+}
+
+/* Three years equal to today: none needs a higher class, and all do if one class less is enough today. If no class is enough
+ * today, no year is an exception. */
+TEST(years_that_need_more_than_today)
+{
+    enum { YEARS = 3 };
+    paper_site_init(&site);
+    site.control.fence = (struct ceduo_fence){.energy = 100e3, .height = 3};
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    LOCAL(ceduo_run, run) = make_run(&def, 100);
+    LOCAL_BY(ceduo_simulated_release) struct ceduo_simulated bare;
+    LOCAL(ceduo_pool, pool);
+    LOCAL(ceduo_years, years);
+    assert_int_equal(ceduo_simulated_read(run, &site.scene, NULL, &bare), CEDUO_OK);
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = YEARS - 1, .step = 1}, &years),
+                     CEDUO_OK);
+    assert_int_equal(ceduo_years_simulate(years, pool, &bare, 100), CEDUO_OK);
+    struct ceduo_fence_arrivals now = years->years[0].wooded.fences[0];
+    const struct ceduo_arrivals today = {.fence = &now};
+    EXPECT(ceduo_fence_smallest(now.enough)->class_index, >, 0);
+    EXPECT(ceduo_years_fence(years, 0, &today).exceptions, ==, 0);
+    for (size_t h = 0; h < CEDUO_FENCE_HEIGHTS; h++)
+        now.enough[h].class_index--;
+    EXPECT_IS(ceduo_years_fence(years, 0, &today), (exceptions, YEARS), (first_exception, 0), (last_exception, YEARS - 1));
+    for (size_t h = 0; h < CEDUO_FENCE_HEIGHTS; h++)
+        now.enough[h].class_index = CEDUO_FENCE_CLASSES;
+    EXPECT(ceduo_years_fence(years, 0, &today).exceptions, ==, 0);
 }
 
 /* Return a run of 300 rocks without speed, which friction holds at their release. */
@@ -327,6 +381,49 @@ TEST(a_run_allocates_twice)
     assert_memory_equal(&steps, &once, sizeof steps);
 }
 
+/* A control that a run does not have, and a run without rocks, have no statistics. */
+TEST(controls_that_do_not_exist)
+{
+    paper_site_init(&site);
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    LOCAL(ceduo_run, run) = make_run(&def, 20);
+    site.scene.controls_count = 0;
+    LOCAL(ceduo_run, fewer) = make_run(&def, 20);
+    site.scene.controls_count = 1;
+    LOCAL(ceduo_run, empty) = make_run(&def, 0);
+    struct ceduo_arrivals a;
+    struct ceduo_group_means brief;
+    struct ceduo_fence_arrivals fence;
+    uint64_t reached = 9;
+    EXPECT(ceduo_run_arrivals(run, 1, &a), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(a.released, ==, 0);
+    EXPECT_NAN(ceduo_run_energy(run, 1, &reached).mean);
+    EXPECT(reached, ==, 0);
+    EXPECT_NAN(ceduo_run_difference(run, fewer, 0).reach.mean, ceduo_run_difference(fewer, run, 0).reach.mean);
+    ceduo_run_group_means(empty, 0, 1, &brief);
+    EXPECT_NAN(brief.reach_probability, brief.exceed_probability, brief.defeated_probability, brief.energy);
+    site.scene.controls_count = 0; /* the run has a control, the scene none */
+    EXPECT(ceduo_run_fence(run, &site.scene, 0, NULL, &fence), ==, CEDUO_BAD_ARGUMENT);
+}
+
+/* One arrival has an energy, but no error. */
+TEST(one_arrival_has_no_error)
+{
+    static double volumes[] = {0.05, 1};
+    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    paper_site_init(&site);
+    site.control.x = 20;
+    site.scene.blocks = &blocks;
+    site.scene.blocks_count = 1;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    uint64_t reached;
+    LOCAL(ceduo_run, run) = make_run(&def, 1);
+    struct ceduo_estimate energy = ceduo_run_energy(run, 0, &reached);
+    EXPECT(reached, ==, 1);
+    EXPECT_NEAR(energy.mean, ceduo_run_samples(run, 0, CEDUO_SAMPLE_ENERGY)[0], 1e-9 * energy.mean);
+    EXPECT_NAN(energy.se);
+}
+
 /* Without a control the ends of rocks are still counted. */
 TEST(ends_without_a_control)
 {
@@ -360,6 +457,35 @@ TEST(a_slope_of_one_point_has_no_run)
     assert_null(run);
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_BAD_SLOPE);
     assert_null(pool);
+}
+
+/* NULL lists of an option that is not the scene's. */
+TEST(missing_lists_of_an_option_are_refused)
+{
+    paper_site_init(&site);
+    struct ceduo_belt belts[2] = {site.belts[0], site.belts[1]};
+    struct ceduo_option option = {.belts_count = 2, .belts = belts};
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_record_def record_def = ceduo_record_def_default(&site.scene);
+    struct ceduo_run *run;
+    struct ceduo_record record;
+    def.option = record_def.option = &option;
+    record_def.rocks = 1;
+    void *const pointers[] = {&option.belts, &belts[0].stand.shoots, &belts[0].stand.trees};
+    for (size_t i = 0; i <= LENGTH(pointers); i++) {
+        void *was = NULL, *missing = NULL;
+        if (i < LENGTH(pointers)) {
+            memcpy(&was, pointers[i], sizeof was);
+            memcpy(pointers[i], &missing, sizeof missing);
+        }
+        enum ceduo_status wanted = i < LENGTH(pointers) ? CEDUO_BAD_ARGUMENT : CEDUO_OK; /* at last all lists exist */
+        EXPECT(ceduo_run_create(&def, &run), ==, wanted);
+        EXPECT(ceduo_record(&record_def, &record), ==, wanted);
+        ceduo_run_free(run);
+        ceduo_record_release(&record);
+        if (i < LENGTH(pointers))
+            memcpy(pointers[i], &was, sizeof was);
+    }
 }
 
 /* Forests no longer in the scene: the last runs used stay, up to a limit. */
