@@ -103,6 +103,19 @@ static bool simulate_scalar_forest(void)
     return simulate(make_def(true));
 }
 
+/* Blocks of all sizes on ground whose roughness is a height; the profile is simplified. */
+static double volumes[] = {0.05, 1};
+static struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+static bool simulate_blocks(void)
+{
+    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
+    paper_site_read_theta(&site, PAPER_HEIGHT);
+    site.scene.slope.tolerance = 0.5;
+    site.scene.blocks = &blocks;
+    site.scene.blocks_count = 1;
+    return simulate(make_def(false));
+}
+
 /* A profile with enough vertices to group its segments into blocks. */
 enum { VERTICES_MAX = 2600 };
 static bool simulate_profile(size_t vertices)
@@ -209,8 +222,6 @@ static bool answer_options(void)
 /* Years simulated twice, with the weights of blocks and a fence. */
 static bool answer_block_years(void)
 {
-    static double volumes[] = {0.05, 1};
-    struct ceduo_size_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
     site.control.fence = (struct ceduo_fence){.height = 2, .energy = 100e3};
     site.scene.blocks = &blocks;
@@ -582,14 +593,18 @@ static bool see(void)
 
 TEST(views_of_runs)
 {
-    init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    def.rocks_max = 40;
-    assert_int_equal(ceduo_pool_create(&def, &viewed), CEDUO_OK);
-    assert_int_equal(ceduo_pool_fill(viewed), CEDUO_OK);
-    assert_int_equal(ceduo_pool_extend(viewed, 40), CEDUO_OK);
-    without_memory(see);
-    ceduo_pool_free(viewed);
+    for (size_t sizes = 0; sizes < 2; sizes++) { /* of one size, of all sizes */
+        init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
+        site.scene.blocks = &blocks;
+        site.scene.blocks_count = sizes;
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        def.rocks_max = 40;
+        assert_int_equal(ceduo_pool_create(&def, &viewed), CEDUO_OK);
+        assert_int_equal(ceduo_pool_fill(viewed), CEDUO_OK);
+        assert_int_equal(ceduo_pool_extend(viewed, 40), CEDUO_OK);
+        without_memory(see);
+        ceduo_pool_free(viewed);
+    }
 }
 
 static enum ceduo_status falls(void *context, double value, double *goal)
@@ -612,7 +627,8 @@ static bool find(void)
 
 TEST(runs_go_on)
 {
-    task *const tasks[] = {simulate_bare, simulate_long_profile, simulate_fine_profile, simulate_scalar_forest};
+    task *const tasks[] = {simulate_bare, simulate_blocks, simulate_long_profile, simulate_fine_profile,
+                           simulate_scalar_forest};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }
