@@ -166,7 +166,7 @@ static const struct forest_stratum *pick_stratum(struct stems *s, int side, cons
 {
     double remaining = mark * rates_in(s, side, j)->rate[stream], rate = 0;
     const struct forest_stratum *found = NULL;
-    for (size_t k = 0; k < belt->strata_count; k++) {
+    for (size_t k = 0; k < belt->strata_count; k++) { /* untaken: rounding */
         const struct forest_stratum *stratum = &belt->strata[k];
         if (get_stream(stratum) != stream)
             continue;

@@ -25,7 +25,7 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
         char *items;
         double *doubles, number;
         memcpy(&n, item + f->companion_offset, sizeof n);
-        switch (f->type) {
+        switch (f->type) { /* untaken: table */
         case FIELD_GROUP:
             hash_fields(key, f->object, member, years);
             break;
@@ -61,10 +61,11 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
             memcpy(&word, member, f->size);
             hash_count(key, word);
             break;
-        case FIELD_TAG: /* pointers: fields.h excludes such rows */
-        case FIELD_TEXT:
-        case FIELD_FILE:
-        case FIELD_WORDS:
+        /* pointers: fields.h excludes such rows */
+        case FIELD_TAG:   /* untaken: table */
+        case FIELD_TEXT:  /* untaken: table */
+        case FIELD_FILE:  /* untaken: table */
+        case FIELD_WORDS: /* untaken: table */
             break;
         }
     }
@@ -76,6 +77,7 @@ uint64_t ceduo_scene_key(const struct ceduo_scene *original)
     struct ceduo_scene scene = *original; /* with the simulated profile; without memory the key differs */
     struct ceduo_slope simplified;
     ceduo_scene_average_releases(&scene);
+    /* untaken: memory */
     if (ceduo_slope_simplify(&original->slope, scene.release.x.mean, &simplified) == CEDUO_OK && simplified.x)
         scene.slope = simplified;
     hash_fields(&key, ceduo_schema_scene(), (const char *)&scene, false);

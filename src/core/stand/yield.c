@@ -44,8 +44,8 @@ static enum ceduo_status sum_rotation(const struct ceduo_belt *belt, unsigned fi
                               : ceduo_stand_before_cut(stand, belt->cut_year, first + t, &next);
         if (status == CEDUO_OK) {
             size_t n = current.stand.shoots_count, m = next.stand.shoots_count;
-            double died = 0; /* only shoots: trees do not die */
-            /* untaken: bound */
+            /* only shoots: trees do not die */
+            double died = 0;
             for (size_t i = 1; i <= n && i <= m; i++) { /* aligned at the oldest cohort: a younger cohort may have been added */
                 const struct ceduo_stems *before = &current.stand.shoots[n - i], *after = &next.stand.shoots[m - i];
                 died += fmax(0, before->per_ha - after->per_ha) * ceduo_stem_volume(&current.stand, before, &from);

@@ -155,7 +155,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
         if (landing_known && (side == 0 ? !(x <= l->x) : !(x >= l->x)))
             return false;
         double t = (x - flight->x) / flight->vx;
-        t = t < 0 ? 0 : landing_known && t > l->t ? l->t : t;
+        t = t < 0 ? 0 : landing_known && t > l->t ? l->t : t; /* untaken: rounding */
         struct landing at_stem = {.t = t, .x = x, .z = height_at_time(flight->z, flight->vz, g->half_g, t)};
         size_t to = l->contact.segment;
         at_stem.contact.segment = same_segment ? j : gsl_interp_bsearch(g->x, x, j < to ? j : to, (j < to ? to : j) + 1);
@@ -173,7 +173,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
             }
             continue;
         }
-        clearance = clearance > 0 ? clearance : 0;
+        clearance = clearance > 0 ? clearance : 0; /* untaken: rounding */
         if (!(clearance < stem.height)) {
             if (w->callbacks && w->callbacks->stem)
                 report_stem(w, &stem, x, clearance, 0, 0);

@@ -93,7 +93,7 @@ FORCE_INLINE double ground_along(const struct ground *g, size_t j, double x)
 {
     const struct ground_segment *s = &g->segments[j];
     double q = (x - g->vertices[j].x) / s->c;
-    return x >= g->vertices[j + 1].x || q > s->length ? s->length : q;
+    return x >= g->vertices[j + 1].x || q > s->length ? s->length : q; /* untaken: rounding */
 }
 
 /* Return the point of segment j at q metres along it. */
