@@ -114,7 +114,7 @@ static void read_fences(const struct ceduo_result *r, const struct ceduo_years *
 {
     size_t controls = years->scene.controls_count;
     struct ceduo_fence_years *fences = ceduo_arena_alloc(memory, controls * sizeof *fences);
-    if (!fences || !ceduo_result_wooded(r, option, 0))
+    if (!fences || !ceduo_result_wooded(r, option, 0)) /* untaken: memory */
         return;
     for (size_t k = 0; k < controls; k++)
         fences[k] = ceduo_years_fence(years, k, ceduo_result_wooded(r, option, k));
@@ -125,7 +125,7 @@ static void read_years(const struct ceduo_years *years, struct arena *memory, st
 {
     size_t controls = years->scene.controls_count;
     struct ceduo_years_summary *summaries = ceduo_arena_alloc(memory, controls * sizeof *summaries);
-    if (!summaries)
+    if (!summaries) /* untaken: memory */
         return;
     for (size_t k = 0; k < controls; k++)
         summaries[k] = ceduo_years_summarize(years, k);
@@ -210,10 +210,10 @@ static void find_reversals(const struct ceduo_result *r, struct ceduo_verdict *v
         for (size_t k = 0; k < v->n; k++) {
             double current = errors_worse(difference_today, r, k, i),
                    reversed = errors_worse(difference_by_alternative_law, r, i, k);
-            if (i == k || !(fmin(current, reversed) > 1 && fmax(current, reversed) > CEDUO_CLEAR))
+            if (i == k || !(current > 1 && reversed > 1 && fmax(current, reversed) > CEDUO_CLEAR)) /* NaN: not comparable */
                 continue;
             v->reversals = ceduo_arena_grow(&v->memory, v->reversals, v->reversals_count, 1, &capacity, sizeof *v->reversals);
-            if (v->memory.failed)
+            if (v->memory.failed) /* untaken: memory */
                 return;
             v->reversals[v->reversals_count++] = (struct ceduo_rank_reversal){i, k};
         }
@@ -271,9 +271,7 @@ static enum ceduo_judgement judge_years(const struct ceduo_years_summary *s, con
 {
     if (o->uncertain && o->failing_lo < 1 && o->failing_hi >= 1)
         return CEDUO_JUDGEMENT_DEPENDS;
-    bool none = s->failing_hi == 0 && o->failing_hi < 1;
-    bool some = s->failing_lo > 0 && o->failing_lo >= 1;
-    return none ? CEDUO_JUDGEMENT_YES : some ? CEDUO_JUDGEMENT_NO : CEDUO_JUDGEMENT_NOT_DECIDED;
+    return s->failing_hi == 0 ? CEDUO_JUDGEMENT_YES : s->failing_lo > 0 ? CEDUO_JUDGEMENT_NO : CEDUO_JUDGEMENT_NOT_DECIDED;
 }
 
 /* Judge by the rate: the mean over the years, or today's. */

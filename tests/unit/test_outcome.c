@@ -108,6 +108,10 @@ TEST_WITH(the_years_decide_before_today, open_site, NULL)
     assert_int_equal(judge(false).answer, CEDUO_JUDGEMENT_NOT_DECIDED);
     o = ceduo_outcome_compute(&result, NULL, NULL, 0, 0); /* today is all that is known */
     EXPECT_IS(o, (answer, CEDUO_JUDGEMENT_YES), (over_years, false));
+    verdict.n = 0; /* a new option is not in the verdict yet */
+    o = judge(false);
+    EXPECT_IS(o, (answer, CEDUO_JUDGEMENT_YES), (over_years, false));
+    verdict.n = 1;
     choice.window.kind = CEDUO_WINDOW_CONSTANT;
     set_failing(1, 1, 1);
     o = judge(false);
@@ -120,10 +124,10 @@ TEST_WITH(uncertain_inputs_leave_the_answer_open, open_site, NULL)
         size_t failing, lo, hi;
         double p5, p95;
         enum ceduo_judgement answer;
-    } rows[] = {{17, 15, 19, 12, 25, CEDUO_JUDGEMENT_NO},     {17, 15, 19, 0, 25, CEDUO_JUDGEMENT_DEPENDS},
-                {0, 0, 0, 0, 0, CEDUO_JUDGEMENT_YES},         {0, 0, 0, 0, 12, CEDUO_JUDGEMENT_DEPENDS},
-                {4, 2, 6, 0, 12, CEDUO_JUDGEMENT_DEPENDS},    {0, 0, 2, 0, 0, CEDUO_JUDGEMENT_NOT_DECIDED},
-                {1, 0, 2, 1, 12, CEDUO_JUDGEMENT_NOT_DECIDED}};
+    } rows[] = {{17, 15, 19, 12, 25, CEDUO_JUDGEMENT_NO},      {17, 15, 19, 0, 25, CEDUO_JUDGEMENT_DEPENDS},
+                {0, 0, 0, 0, 0, CEDUO_JUDGEMENT_YES},          {0, 0, 0, 0, 12, CEDUO_JUDGEMENT_DEPENDS},
+                {4, 2, 6, 0, 12, CEDUO_JUDGEMENT_DEPENDS},     {0, 0, 2, 0, 0, CEDUO_JUDGEMENT_NOT_DECIDED},
+                {1, 0, 2, 1, 12, CEDUO_JUDGEMENT_NOT_DECIDED}, {17, 15, 19, NAN, NAN, CEDUO_JUDGEMENT_NO}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         set_failing(rows[i].failing, rows[i].lo, rows[i].hi);
         set_range(CEDUO_UNCERTAINTY_FAILING, rows[i].p5, rows[i].p95);
@@ -169,6 +173,15 @@ TEST_WITH(blocks_are_judged_by_how_often, open_site, NULL)
         set_range(CEDUO_UNCERTAINTY_MEAN, rows[i].p5, rows[i].p95);
         assert_int_equal(judge(true).answer, rows[i].answer);
     }
+    assert_int_equal(judge(true).answer, CEDUO_JUDGEMENT_DEPENDS);
+    answer.rotation = false; /* the range is unknown: the interval of the rate, above the limit, decides */
+    assert_int_equal(judge(true).answer, CEDUO_JUDGEMENT_NO);
+    result.wooded = false; /* nothing is simulated through the forest */
+    set_share(&bare, .001, 0, .002);
+    bare.limit = .005;
+    struct ceduo_outcome o = ceduo_outcome_compute(&result, NULL, NULL, 0, 0);
+    EXPECT_IS(o, (answer, CEDUO_JUDGEMENT_YES), (also_bare, true));
+    EXPECT_NAN(o.rate.mean);
 }
 
 static void print_answer(struct text *text, size_t at, size_t width)

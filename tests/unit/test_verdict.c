@@ -283,16 +283,36 @@ TEST_WITH(a_ranking_is_reversed_by_more_than_an_error, open_results, close_resul
     static const struct {
         double today, other; /* difference in errors: option 1 worse today, better under the other law */
         size_t reversed;
-    } cases[] = {{4, .5, 0}, {.5, 4, 0}, {4, 1.5, 1}, {1.5, 4, 1}, {2.5, 2.5, 0}, {4, -4, 0}};
+        enum ceduo_energy_model law; /* the other law of option 1; laws that differ are not compared */
+    } cases[] = {{4, .5, 0, CEDUO_ENERGY_MODEL_BRAUNER},    {.5, 4, 0, CEDUO_ENERGY_MODEL_BRAUNER},
+                 {4, 1.5, 1, CEDUO_ENERGY_MODEL_BRAUNER},   {1.5, 4, 1, CEDUO_ENERGY_MODEL_BRAUNER},
+                 {2.5, 2.5, 0, CEDUO_ENERGY_MODEL_BRAUNER}, {4, -4, 0, CEDUO_ENERGY_MODEL_BRAUNER},
+                 {4, 1.5, 0, CEDUO_ENERGY_MODEL_DORREN}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         made.differences[1].exceed = (struct ceduo_estimate){cases[i].today * .01, .01, NAN, NAN};
         made.alternatives[1].to_first.exceed = (struct ceduo_estimate){-cases[i].other * .01, .01, NAN, NAN};
+        made.alternatives[0].model = CEDUO_ENERGY_MODEL_BRAUNER;
+        made.alternatives[1].model = cases[i].law;
         made.differences[2].exceed = made.alternatives[2].to_first.exceed = (struct ceduo_estimate){9, .01, NAN, NAN};
         LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = make_verdict(NULL);
         EXPECT(v.reversals_count, ==, cases[i].reversed);
         if (v.reversals_count > 0)
             assert_true(v.reversals[0].better == 0 && v.reversals[0].worse == 1);
     }
+}
+
+/* The cut that is due is the first of all belts. */
+TEST_WITH(the_next_cut_is_the_first_of_all_belts, open_results, close_results)
+{
+    const struct ceduo_belt belt = made.options[1].belts[0];
+    struct ceduo_belt two[2] = {belt, belt};
+    two[0].cut_year = 3;
+    two[1].cut_year = 2;
+    made.options[1].belts = two;
+    made.options[1].belts_count = 2;
+    LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = make_verdict(NULL);
+    EXPECT(v.choices[0].cut, ==, 1);
+    EXPECT(v.choices[1].cut, ==, 2);
 }
 
 /* With equal yields, 500 of 1000 rocks through the first option are clearly more than 300; 305 are not. If all options let the
