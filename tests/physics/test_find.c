@@ -3,6 +3,7 @@
 #include "core/stand/adc.h"
 #include "expect.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "ceduo/ceduo.h"
@@ -329,6 +330,18 @@ TEST(a_search_with_only_passing_values)
     found = find(&a, 5, 90, true, INFINITY);
     assert_true(found.whole_range);
     EXPECT(found.value, ==, 5);
+}
+
+/* Numbers beyond 10^16 are 2 apart: between two neighbours nothing is evaluated. */
+TEST(neighbouring_numbers)
+{
+    struct asked a = {.goal = line, .p = {1}};
+    const double lo = 1e16;
+    for (int i = 0; i < 2; i++) {
+        struct ceduo_found found = find_with(&a, lo, lo + 4, false, lo + 2 * i, DBL_EPSILON);
+        EXPECT_IS(found, (value, lo + 2 * i), (side, CEDUO_SIDE_LARGEST), (evaluations, 3));
+        expect_edge(&a, &found, lo + 2 * i, 2);
+    }
 }
 
 /* ---- goals that are not finite ---- */

@@ -185,7 +185,8 @@ TEST(unidentified_values_are_fixed)
         double width[3], correlation[3];
         size_t draws;
         bool fixed[3];
-    } cases[] = {{{true, true, true}, {.1, .3, .2}, {.9, 0, -.9}, 9, {false, true, false}}, /* not converged: the widest */
+    } cases[] = {{{true, true, true}, {.1, .3, .2}, {.9, 0, -.9}, 9, {false, true, false}},  /* not converged: the widest */
+                 {{true, true, true}, {.1, .3, .2}, {.9, 0, -.9}, 0, {false, false, false}}, /* without draws */
                  {{true, true, true}, {.1, .3, .2}, {.91, 0, 0}, 9, {false, true, false}},
                  {{true, true, true}, {.1, .2, .3}, {.9, 0, -.9}, 9, {false, false, false}},
                  {{true, true, true}, {.1, .2, .3}, {.91, 0, 0}, 9, {false, true, false}},
@@ -196,8 +197,12 @@ TEST(unidentified_values_are_fixed)
                  {{false, true, true}, {.9, .2, .3}, {.95, .95, 0}, 9, {true, false, false}},
                  {{false, false, false}, {.9, .9, .9}, {0, 0, 0}, 9, {true, true, false}},
                  {{false, false, false}, {NAN, NAN, NAN}, {NAN, NAN, NAN}, 0, {false, false, false}}};
+    struct ceduo_calibration one = {.parameters_count = 1, .draws_count = 9};
+    bool selected[CEDUO_CALIBRATION_MAX];
+    EXPECT(ceduo_calibration_unidentified(&one, selected), ==, 0);
+    assert_false(selected[0]);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct ceduo_calibration a = {.parameters_count = 3, .draws_count = cases[i].draws, .converged = i > 1};
+        struct ceduo_calibration a = {.parameters_count = 3, .draws_count = cases[i].draws, .converged = i > 2};
         bool fixed[CEDUO_CALIBRATION_MAX];
         size_t n = 0;
         for (size_t k = 0; k < 3; k++) {

@@ -11,6 +11,7 @@
 #include <sys/time.h>
 #include <time.h>
 
+#include "base/gsl_errors.h"
 #include "physics/line_scene.h"
 #include "study/chains.h"
 #include "study/surrogate.h"
@@ -228,6 +229,7 @@ TEST(alternating_draws)
 /* A quadratic is learnt exactly; points without a value are left out. */
 TEST(a_surrogate_learns_a_quadratic)
 {
+    GSL_RETURNS_ERRORS;
     LOCAL_BY(ceduo_surrogate_free) struct surrogate g = ceduo_surrogate_begin(2);
     double u[64 * 2], values[64], at[2] = {0.3, 0.9};
     EXPECT(ceduo_surrogate_evaluate(&g, at), ==, 0);
@@ -250,6 +252,10 @@ TEST(a_surrogate_learns_a_quadratic)
         u[2 * i + 1] = i / 4 / 4.;
         values[i] = 1 - u[2 * i];
     }
+    EXPECT(ceduo_surrogate_train(&g, u, values, 16, NULL), ==, CEDUO_OK);
+    EXPECT_NEAR(ceduo_surrogate_evaluate(&g, (double[2]){0.5, 0.1}), 0.5, 1e-9);
+    for (int i = 0; i < 16; i++)
+        u[2 * i + 1] = 0.5; /* nothing is learnt about the second coordinate: the last surrogate stays */
     EXPECT(ceduo_surrogate_train(&g, u, values, 16, NULL), ==, CEDUO_OK);
     EXPECT_NEAR(ceduo_surrogate_evaluate(&g, (double[2]){0.5, 0.1}), 0.5, 1e-9);
 }

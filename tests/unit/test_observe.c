@@ -437,8 +437,21 @@ TEST(invalid_scenes_are_not_compared)
         EXPECT(ceduo_observer_values(observer, &g.scene, 0, ROCKS, &values, &n), !=, CEDUO_OK);
         assert_null(values);
         g.scene.slope.vertices = 2;
+        const struct {
+            size_t which;
+            uint64_t rocks;
+        } bad[] = {{1, ROCKS}, {0, 0}, {0, CEDUO_ROCKS_MAX + 1}};
+        for (size_t k = 0; k < LENGTH(bad); k++)
+            EXPECT(ceduo_observer_values(observer, &g.scene, bad[k].which, bad[k].rocks, &values, &n), ==, CEDUO_BAD_ARGUMENT);
         ceduo_observer_free(observer);
     }
+    o[0].option = 1; /* there is one option */
+    EXPECT(ceduo_observer_create(o, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_simulate(observer, &g.scene, ROCKS, NULL, c), ==, CEDUO_BAD_ARGUMENT);
+    ceduo_observer_free(observer);
+    o[0] = observe_stops(1, &(double){NAN});
+    EXPECT(ceduo_observer_create(o, 1, &observer), ==, CEDUO_BAD_ARGUMENT);
+    assert_null(observer);
     ceduo_observer_free(NULL);
 }
 

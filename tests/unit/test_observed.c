@@ -89,6 +89,11 @@ TEST(a_flight_without_a_fit)
     EXPECT(p[1].inside || p[1].p_value > 0.001, ==, false);
     EXPECT_NEAR(p[2].lo, 10, 1e-12);
     EXPECT(p[2].inside, ==, true);
+    EXPECT(ceduo_compare_with_observations(&asked, 0, NULL, p), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_compare_with_observations(&asked, CEDUO_ROCKS_MAX + 1, NULL, p), ==, CEDUO_BAD_ARGUMENT);
+    g.scene.options_count = 0;
+    EXPECT(ceduo_compare_with_observations(&asked, 100, NULL, p), ==, CEDUO_BAD_ARGUMENT);
+    g.scene.options_count = 1;
     g.scene.slope.vertices = 1;
     EXPECT(ceduo_compare_with_observations(&asked, 100, NULL, p), !=, CEDUO_OK);
 }

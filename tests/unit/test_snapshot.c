@@ -244,6 +244,19 @@ TEST_WITH(longer_runs_are_read_again, set_up_stems, NULL)
     assert_int_equal(second->wooded[0]->simulated.rocks, 301);
 }
 
+/* A fence changes no run, but the rocks that pass it: results with the old fence are not shared. */
+TEST_WITH(another_fence_is_read_again, set_up_stems, NULL)
+{
+    LOCAL(ceduo_pool, pool) = make_pool(300);
+    struct ceduo_snapshot_def def = {.scene = &s.scene, .runs = pool};
+    LOCAL(ceduo_snapshot, first) = make_snapshot(&def);
+    s.controls[0].fence = (struct ceduo_fence){.height = 3, .energy = 1e5};
+    def.last = first;
+    LOCAL(ceduo_snapshot, second) = make_snapshot(&def);
+    EXPECT_NAN(first->bare->simulated.arrivals[0].fence->defeated.mean);
+    EXPECT(second->bare->simulated.arrivals[0].fence->defeated.mean, >, 0);
+}
+
 /* A trajectory has the start and the end of its rock, and is never far below the ground. */
 TEST_WITH(trajectories_follow_the_rocks, set_up_stems, NULL)
 {

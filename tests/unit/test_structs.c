@@ -17,6 +17,7 @@
 #include "ceduo/ceduo.h"
 #include "physics/paper_site.h"
 #include "scene/schema.h"
+#include "study/check_study.h"
 
 #define ASKED   FULL_OR(100000, 6000)
 #define SECONDS 20 /* per question; longer means it hangs */
@@ -402,6 +403,91 @@ TEST(each_bad_argument_is_refused)
     EXPECT(ceduo_find(&search, &found), ==, CEDUO_BAD_ARGUMENT);
     EXPECT(ceduo_rock_def_default().density.mean, >, 0);
     assert_true(isnan(ceduo_observation_default().x) && isnan(ceduo_rock_def_default().diameter.mean));
+}
+
+#define REFUSED_BY(call, place, value)                                                                                         \
+    do {                                                                                                                       \
+        __typeof__(place) was = place;                                                                                         \
+        place = value;                                                                                                         \
+        EXPECT(call, ==, CEDUO_BAD_ARGUMENT);                                                                                  \
+        place = was;                                                                                                           \
+    } while (0)
+
+/* Change one member of a valid calibration at a time, in its scene, its input and its observation. */
+TEST(each_bad_member_of_a_calibration_is_refused)
+{
+    open_site();
+    const char *place = "rock.diameter_m";
+    double values[] = {1, 2};
+    struct ceduo_input input = {
+        .path = place, .kind = CEDUO_INPUT_RANGE, .lo = .5, .hi = 1, .places_count = 1, .places = &place};
+    struct ceduo_observation observed = ceduo_observation_default();
+    struct ceduo_calibration_scene fitted = {&site.scene, &input, 1, &observed};
+    struct ceduo_calibration_def def = ceduo_calibration_def_default();
+    struct ceduo_calibration fit;
+    input.mean = input.sd = .5; /* valid for any distribution */
+    observed.n = 2;
+    observed.values = values;
+    def.scenes = &fitted;
+    def.scenes_count = def.parameters_count = 1;
+#define REFUSED_FIT(place, value) REFUSED_BY(ceduo_calibrate(&def, &fit), place, value)
+    EXPECT(ceduo_check_calibration_def(&def), ==, CEDUO_OK);
+    REFUSED_FIT(def.scenes_count, 0);
+    REFUSED_FIT(def.parameters_count, 0);
+    REFUSED_FIT(def.rocks, 0);
+    REFUSED_FIT(def.rocks, CEDUO_ROCKS_MAX + 1);
+    REFUSED_FIT(def.threads, CEDUO_THREADS_MAX + 1);
+    REFUSED_FIT(def.steps_max, CEDUO_CALIBRATION_STEPS + 1);
+    REFUSED_FIT(fitted.inputs, NULL);
+    REFUSED_FIT(fitted.observations, NULL);
+    REFUSED_FIT(site.scene.options_count, 0);
+    REFUSED_FIT(input.kind, CEDUO_INPUT_GAMMA);
+    REFUSED_FIT(input.hi, input.lo);
+    REFUSED_FIT(input.hi, NAN);
+    REFUSED_FIT(observed.kind, CEDUO_OBSERVED_KINDS);
+    REFUSED_FIT(observed.option, 1);
+    REFUSED_FIT(observed.n, 0);
+    REFUSED_FIT(values[0], NAN);
+    observed.kind = CEDUO_OBSERVED_PASSED;
+    REFUSED_FIT(observed.count, 1); /* none was released */
+    site.scene.slope.vertices = 1;
+    EXPECT(ceduo_calibrate(&def, &fit), ==, CEDUO_BAD_SLOPE);
+}
+
+/* Results of the scene as given must cover each option, and its years unless the contact model has none. */
+TEST(own_results_cover_all_options)
+{
+    open_site();
+    struct ceduo_input input = ceduo_input_default(); /* without places */
+    struct ceduo_uncertainty_def def = ceduo_uncertainty_def_default(&site.scene);
+    struct ceduo_uncertainty_result a;
+    struct ceduo_years *years = NULL;
+    struct ceduo_result result = {.options_count = site.scene.options_count};
+    struct ceduo_results own = {.result = &result, .years_count = result.options_count};
+    site.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
+    def.inputs = &input;
+    def.inputs_count = 1;
+    def.own = &own;
+    def.brief = true;
+#define REFUSED_OWN(place, value) REFUSED_BY(ceduo_uncertainty_compute(&def, &a), place, value)
+    EXPECT(ceduo_check_uncertainty_def(&def), ==, CEDUO_OK);
+    REFUSED_OWN(def.brief, false);
+    REFUSED_OWN(own.result, NULL);
+    REFUSED_OWN(result.options_count, result.options_count + 1);
+    REFUSED_OWN(def.rotation, true);
+    def.rotation = true;
+    site.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_INDEX;
+    EXPECT(ceduo_check_uncertainty_def(&def), ==, CEDUO_OK);
+    site.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
+    own.years = &years;
+    EXPECT(ceduo_uncertainty_compute(&def, &a), ==, CEDUO_BAD_ARGUMENT);
+    EXPECT(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 1, .step = 1}, &years), ==, CEDUO_OK);
+    EXPECT(ceduo_check_uncertainty_def(&def), ==, CEDUO_OK);
+    REFUSED_OWN(own.years_count, 0);
+    REFUSED_OWN(result.options_count, 0);
+    ceduo_years_free(years);
+    EXPECT(ceduo_check_inputs(NULL, 0, true), ==, CEDUO_OK);
+    EXPECT(ceduo_check_inputs(NULL, 1, true), ==, CEDUO_BAD_ARGUMENT);
 }
 
 /* NULL lists with a count. */

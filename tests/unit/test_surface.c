@@ -59,6 +59,16 @@ static struct ceduo_surface_fit fit_function(function *f, size_t n, size_t point
     return fit;
 }
 
+TEST(inputs_of_a_surface_are_checked)
+{
+    struct ceduo_surface *surface;
+    const double u[2] = {.25, .75};
+    make_inputs(1, 0, 0);
+    inputs[0].hi = -1; /* below its lower end */
+    EXPECT(ceduo_surface_open(inputs, 1, u, 2, &surface), ==, CEDUO_BAD_ARGUMENT);
+    assert_null(surface);
+}
+
 /* ---- functions that a surface fits exactly ---- */
 
 static double linear(const double *u, size_t n)

@@ -274,3 +274,26 @@ TEST(missing_heights)
     assert_true(isnan(a.trees.mean));
     ceduo_survey_release(&a);
 }
+
+/* Change one number of a valid stem at a time. */
+TEST(each_bad_stem_is_refused)
+{
+    size_t species;
+    ceduo_species_list(&species);
+    const double area = 100;
+    const struct ceduo_survey_stem good = stem(CEDUO_SURVEY_TREE, 0, .2, 12);
+    struct ceduo_survey_stem bad[] = {good, good, good, good, good};
+    bad[0].species = (int)species;
+    bad[1].dbh = INFINITY;
+    bad[2].plot = 1;
+    bad[3].kind = CEDUO_SURVEY_SHOOT; /* there is no stool */
+    bad[4].dbh = 0;
+    struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stems_count = 1, .stems = &good};
+    struct ceduo_survey_result a;
+    assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_OK);
+    ceduo_survey_release(&a);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        s.stems = &bad[i];
+        assert_int_equal(ceduo_survey_compute(&s, &a), CEDUO_BAD_ARGUMENT);
+    }
+}

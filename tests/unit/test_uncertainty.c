@@ -90,7 +90,43 @@ TEST(uncertainty_of_a_known_law)
     EXPECT_NEAR(f->at_ends[1][0], .2, 1e-12);
     EXPECT_NEAR(f->at_ends[1][1], .3, 1e-12);
     EXPECT(f->order[2], ==, 0);
+    size_t decisive[2];
+    assert_null(ceduo_uncertainty_find_figure(&a, 1, CEDUO_UNCERTAINTY_CONTACT, false)); /* there is one option */
+    assert_null(ceduo_uncertainty_find_figure(&a, 0, CEDUO_UNCERTAINTY_KINDS, false));
+    assert_null(ceduo_uncertainty_find_figure(&a, 0, CEDUO_UNCERTAINTY_CONTACT, true));
+    EXPECT(ceduo_uncertainty_dominant_inputs(&file.scene, &a, 1, CEDUO_UNCERTAINTY_CONTACT, decisive), ==, 0);
     ceduo_uncertainty_release(&a);
+    ceduo_scene_release(&file);
+}
+
+/* The second of two options alone: contacts per metre are uniform between .2 and .3. */
+TEST(one_option_is_evaluated)
+{
+    static const char *const place = "options[1].forest[0].stand.trees[0].per_ha";
+    const struct ceduo_input input = make_range(&place, 1000, 2000);
+    struct ceduo_uncertainty_result a;
+    open_wood();
+    struct ceduo_option options[2] = {file.scene.options[0], file.scene.options[0]}, *was = file.scene.options;
+    file.scene.options = options;
+    file.scene.options_count = 2;
+    const struct ceduo_uncertainty_def def = {.size = sizeof(struct ceduo_uncertainty_def),
+                                              .scene = &file.scene,
+                                              .inputs_count = 1,
+                                              .inputs = &input,
+                                              .points = CEDUO_UNCERTAINTY_POINTS,
+                                              .rocks = CEDUO_SURFACE_GROUPS,
+                                              .one_option = true,
+                                              .option = 1,
+                                              .threads = 1};
+    EXPECT(ceduo_uncertainty_compute(&def, &a), ==, CEDUO_OK);
+    const struct ceduo_uncertainty_figure *f = ceduo_uncertainty_find_figure(&a, 1, CEDUO_UNCERTAINTY_CONTACT, false);
+    EXPECT_NEAR(f->fit.p5, .205, .001);
+    EXPECT_NEAR(f->fit.p95, .295, .001);
+    EXPECT_NAN(ceduo_uncertainty_find_figure(&a, 0, CEDUO_UNCERTAINTY_CONTACT, false)->fit.p5);
+    EXPECT(a.orders_count, ==, 0);
+    ceduo_uncertainty_release(&a);
+    file.scene.options = was;
+    file.scene.options_count = 1;
     ceduo_scene_release(&file);
 }
 
@@ -290,6 +326,94 @@ TEST(the_effort_of_a_page_is_bounded)
     ceduo_scene_release(&file);
 }
 
+/* Each point of the profile in the file costs 0.7 per run, and 4e7 are planned: with 1e6 points the rotation is dropped, with
+ * 1e8 nothing is simulated. A cancelled pilot ends the estimate. */
+TEST(a_rotation_is_dropped_before_all_points)
+{
+    static const char *const place = "slope.segments[0].rn";
+    static const struct {
+        size_t profile, min, max; /* points of the profile, and of the analysis */
+    } cases[] = {{1000000, CEDUO_UNCERTAINTY_MIN, 57}, {100000000, 0, 0}};
+    const struct ceduo_input input = make_range(&place, .25, .35);
+    const struct ceduo_work own = {.rocks = 0};
+    open_wood();
+    file.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
+    const struct ceduo_uncertainty_def asked = {.size = sizeof(struct ceduo_uncertainty_def),
+                                                .scene = &file.scene,
+                                                .inputs_count = 1,
+                                                .inputs = &input,
+                                                .points = CEDUO_UNCERTAINTY_POINTS,
+                                                .rocks = CEDUO_SURFACE_GROUPS,
+                                                .rotation = true,
+                                                .window = {CEDUO_WINDOW_GIVEN, 1, 25, 1},
+                                                .brief = true};
+    for (size_t i = 0; i < LENGTH(cases); i++) {
+        struct ceduo_uncertainty_def def = asked;
+        file.scene.slope.points = cases[i].profile;
+        EXPECT(ceduo_effort_bound(&def, &own), ==, CEDUO_OK);
+        assert_false(def.rotation);
+        EXPECT(def.points, >=, cases[i].min);
+        EXPECT(def.points, <=, cases[i].max);
+    }
+    const atomic_bool cancelled = true;
+    struct ceduo_uncertainty_def def = asked;
+    def.cancel = &cancelled;
+    EXPECT(ceduo_effort_bound(&def, &own), ==, CEDUO_CANCELLED);
+    ceduo_scene_release(&file);
+}
+
+/* Trees that no rock can break or miss, cut in the second of two years: no rock arrives in the first, all in the second. Their
+ * share is 1 in the worst year, and 1/2 in the mean. */
+TEST(the_worst_year_of_plausible_cases)
+{
+    static const struct {
+        enum ceduo_goal goal;
+        double share;
+    } cases[] = {{CEDUO_GOAL_WORST_ARRIVE, 1}, {CEDUO_GOAL_WORST_EXCEED, 1}, {CEDUO_GOAL_ARRIVE, .5}, {CEDUO_GOAL_EXCEED, .5}};
+    static const char *const place = "rocks_per_year";
+    const struct ceduo_input input = make_range(&place, 1, 2);
+    open_wood();
+    file.scene.simulation.contact_model = CEDUO_CONTACT_MODEL_STEMS;
+    file.scene.controls[0].accepted = 1;
+    struct ceduo_belt *belt = &file.scene.options[0].belts[0];
+    belt->cut_year = 2;
+    belt->stand.cutting.rotation = 10;
+    belt->stand.stools_per_ha = 0;
+    belt->stand.shoots_count = 0;
+    belt->stand.u = 1e7;
+    for (int k = 0; k < 2; k++) {
+        belt->stand.trees[k].per_ha = 1e5;
+        belt->stand.trees[k].volume = 10;
+    }
+    struct ceduo_uncertainty_def def = set_long_years(&input);
+    def.window.last = 2;
+    def.points = 20;
+    for (size_t i = 0; i < LENGTH(cases); i++) {
+        struct reliability_result answer;
+        const struct reliability_def asked = {.uncertainty = def, .goal = cases[i].goal, .target = .25, .sure = .5};
+        EXPECT(ceduo_reliability_compute(&asked, &answer), ==, CEDUO_OK);
+        EXPECT_NEAR(answer.above, cases[i].share - .25, 1e-9);
+        EXPECT(answer.share.value, ==, 0);
+    }
+    ceduo_scene_release(&file);
+}
+
+/* An input concerns future years alone if today's forest does not depend on it. */
+TEST(inputs_of_future_years)
+{
+    static const struct {
+        const char *place;
+        bool future;
+    } cases[] = {{"forest[0].stand.growth.trees.dbh_rate_1_y", true},
+                 {"forest[0].stand.trees[0].dbh_m", false},
+                 {"forest[0].stand.species", false},
+                 {"no.such", false}};
+    for (size_t i = 0; i < LENGTH(cases); i++) {
+        const struct ceduo_input input = make_range(&cases[i].place, 1, 2);
+        EXPECT(ceduo_input_is_future(&input), ==, cases[i].future);
+    }
+}
+
 /* Without arrivals there is no energy, by the index and among stems. */
 TEST(no_rock_brings_no_energy)
 {
@@ -297,11 +421,12 @@ TEST(no_rock_brings_no_energy)
     open_wood();
     file.scene.slope.segments[0].rt = ceduo_number(0);
     file.scene.slope.segments[0].friction = 100;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++) { /* with 0 threads, which means one, and with one */
         struct reliability_result answer;
-        const struct reliability_def def = {.uncertainty = {.scene = &file.scene, .points = 2, .rocks = 16, .threads = 1},
-                                            .goal = CEDUO_GOAL_ENERGY,
-                                            .target = 5};
+        const struct reliability_def def = {
+            .uncertainty = {.scene = &file.scene, .points = 2, .rocks = 16, .threads = (unsigned)i},
+            .goal = CEDUO_GOAL_ENERGY,
+            .target = 5};
         file.scene.simulation.contact_model = models[i];
         EXPECT(ceduo_reliability_compute(&def, &answer), ==, CEDUO_OK);
         EXPECT(answer.above, ==, -5);
