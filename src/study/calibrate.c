@@ -117,7 +117,7 @@ static enum ceduo_status search(struct fitting *f)
 {
     size_t d = f->def->parameters_count, best[CHAINS];
     enum ceduo_status status = ceduo_surface_points(f->def->seed, POINTS, d, f->training);
-    if (status == CEDUO_OK)
+    if (status == CEDUO_OK) /* untaken: memory */
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){POINTS, f->def->threads, evaluate_point, f});
     gsl_sort_largest_index(best, CHAINS, f->training_values, 1, POINTS);
     for (size_t k = 0; k < CHAINS * d; k++) {

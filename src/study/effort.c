@@ -85,9 +85,10 @@ static enum ceduo_status run_pilot(const struct ceduo_uncertainty_def *def, stru
     double rocks =
         (double)pilot.rocks + (pilot.rotation ? (double)(ceduo_points_years(&pilot) * CEDUO_UNCERTAINTY_YEAR_ROCKS) : 0);
     pilot.effort_max = (uint64_t)((1 - PLANNED) * plan->max);
-    enum ceduo_status status =
-        u ? ceduo_surface_points(def->scene->simulation.seed, PILOT, def->inputs_count, u) : CEDUO_NO_MEMORY;
-    if (status == CEDUO_OK)
+    enum ceduo_status status = CEDUO_NO_MEMORY;
+    if (u) /* untaken: memory */
+        status = ceduo_surface_points(def->scene->simulation.seed, PILOT, def->inputs_count, u);
+    if (status == CEDUO_OK) /* untaken: memory */
         status = ceduo_points_run(&(const struct points){.def = &pilot, .u = u, .today = true, .effort = &effort}, 0, PILOT, 0);
     plan->met = (double)effort / (PILOT * rocks);
     free(u);

@@ -54,5 +54,5 @@ enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *h
     curve->b = sign * gsl_vector_get(found, 1);
     curve->rmse = gsl_blas_dnrm2(gsl_multifit_nlinear_residual(w)) / sqrt((double)n);
     gsl_multifit_nlinear_free(w);
-    return curve->a >= 0 && curve->b > 0 && isfinite(curve->rmse) ? CEDUO_OK : CEDUO_NO_FIT;
+    return curve->a >= 0 && curve->b > 0 && isfinite(curve->rmse) ? CEDUO_OK : CEDUO_NO_FIT; /* untaken: rounding */
 }

@@ -108,13 +108,13 @@ static enum ceduo_status read_worst(const struct reliability *s, struct ceduo_su
     size_t n = s->slots * points;
     struct ceduo_replicates *years = malloc(2 * n * sizeof *years), *changes = years + n;
     double *values = malloc(n * sizeof *values);
-    enum ceduo_status status = years && values ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t i = 0; status == CEDUO_OK && i < n; i++)
+    enum ceduo_status status = years && values ? CEDUO_OK : CEDUO_NO_MEMORY; /* untaken 2: memory */
+    for (size_t i = 0; status == CEDUO_OK && i < n; i++)                     /* untaken: memory */
         years[i] = find_values(s, i % points, control)[i / points];
     const struct ceduo_surface_figure figure = {.y = years, .hi = 1, .limit = NAN};
-    if (status == CEDUO_OK)
+    if (status == CEDUO_OK) /* untaken: memory */
         status = ceduo_surface_values(surface, &figure, s->slots, values, changes);
-    for (size_t p = 0; status == CEDUO_OK && p < points; p++) {
+    for (size_t p = 0; status == CEDUO_OK && p < points; p++) { /* untaken: memory */
         size_t worst = p;
         for (size_t i = p; i < n; i += points)
             worst = values[i] > values[worst] ? i : worst;
@@ -137,7 +137,7 @@ static enum ceduo_status fill_column(const struct reliability *s, struct ceduo_s
             y[p] = combine_years(s, find_values(s, p, c));
         if (worst)
             status = read_worst(s, surface, points, c, y);
-        for (size_t p = 0; p < points && status == CEDUO_OK; p++)
+        for (size_t p = 0; p < points && status == CEDUO_OK; p++) /* untaken: memory */
             if (c == 0 || replicates_mean(&y[p]) > replicates_mean(&column[p]))
                 column[p] = y[p];
     }

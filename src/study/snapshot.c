@@ -71,7 +71,7 @@ static enum ceduo_status trace(struct ceduo_tracer *follower, uint64_t rock, str
         return status;
     add_point(t, trajectory.x, trajectory.z, true);
     double *x = ceduo_arena_alloc(memory, 2 * t->n * sizeof *x);
-    if (!x)
+    if (!x) /* untaken: memory */
         return CEDUO_NO_MEMORY;
     *line = (struct ceduo_polyline){t->n, x, x + t->n};
     memcpy(line->x, t->x, t->n * sizeof *t->x);
@@ -84,8 +84,6 @@ static enum ceduo_status trace(struct ceduo_tracer *follower, uint64_t rock, str
 static size_t place_cells(const struct ceduo_scene *scene, double *x)
 {
     double from = ceduo_scene_release_last(scene), to = scene->slope.x[scene->slope.vertices - 1];
-    if (!(to > from))
-        return 0;
     for (size_t i = 0; i < CEDUO_SNAPSHOT_CELLS; i++)
         x[i] = from + (to - from) * ((double)i + 0.5) / CEDUO_SNAPSHOT_CELLS;
     return CEDUO_SNAPSHOT_CELLS;

@@ -336,14 +336,13 @@ static int decompose(void *solution)
     return gsl_multifit_linear_svd(&f->x.matrix, f->workspace);
 }
 
-/* List and decompose the terms, for which the points must suffice. Reuses the last solution of the same terms. NULL on
- * failure. */
+/* List and decompose the terms, for which the points must suffice. Reuses the last solution of the same terms: the inputs
+ * determine their degree. NULL on failure. */
 static struct solution *find_solution(struct ceduo_surface *s, const struct term_set *set)
 {
     struct solution *f = &s->solutions[set->leading > 0];
     size_t points = s->points, bytes = set->n * sizeof *set->used;
-    if (f->set.used && f->set.n == set->n && f->set.leading == set->leading && f->set.linear == set->linear &&
-        memcmp(f->set.used, set->used, bytes) == 0)
+    if (f->set.used && f->set.n == set->n && f->set.leading == set->leading && memcmp(f->set.used, set->used, bytes) == 0)
         return f;
     close_solution(f);
     size_t *used = ceduo_arena_alloc(&f->memory, bytes + 1);
@@ -427,7 +426,7 @@ static double estimate_residual_variance(const struct solution *f, size_t withou
 static double compute_shrinkage(double squares, const double *values, size_t n)
 {
     double all = gsl_stats_tss_m(values, 1, n, 0);
-    return all > 0 ? sqrt(fmin(1, fmax(0, squares) / all)) : 0; /* untaken: rounding */
+    return all > 0 ? sqrt(fmin(1, fmax(0, squares) / all)) : 0;
 }
 
 /* Fit the current figure. NULL on failure. */

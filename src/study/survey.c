@@ -268,6 +268,7 @@ enum ceduo_status ceduo_survey_compute(const struct ceduo_survey *survey, struct
     a->stump_diameter = stump_mean(survey, offsetof(struct ceduo_survey_stem, dbh));
     a->stump_height = stump_mean(survey, offsetof(struct ceduo_survey_stem, height));
     a->stump_energy = stump_mean(survey, offsetof(struct ceduo_survey_stem, energy));
+    /* untaken 2: memory */
     good = good && count_stools(&s) && complete_heights(&s, true, &a->shoots) && complete_heights(&s, false, &a->trees) &&
            make_classes(&s);
     ceduo_arena_free(&s.memory);
