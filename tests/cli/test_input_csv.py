@@ -92,7 +92,7 @@ def test_no_table():
 CSV_CASES = [
     # (content, place, words)
     ("", None, "is empty"), ("distance,depth\n0,1\n", (1, None), "'distance' and 'elevation'"),
-    ("a,64\n100,0\n", (1, None), "'distance' and 'elevation'"), ("\n\n", (1, None), "'distance' and 'elevation'"),
+    ("a,64\n100,0\n", (1, None), "'distance' and 'elevation'"), ("sep=", (1, None), "'distance' and 'elevation'"), ("\n\n", (1, None), "'distance' and 'elevation'"),
     ("distance,elevation\n", None, "two points"), ("distance,elevation\n0,64\n", None, "two points"),
     ("distance,elevation\n0,64\n50,\n100,0\n", (3, 4), "missing"), ("distance,elevation\n0,64\n,30\n100,0\n", (3, 1), "missing"),
     ("distance,elevation\n0,64\n50\n100,0\n", (3, None), "too few"), ("elevation,distance\n64,0\n30\n0,100\n", (3, None), "too few"),

@@ -200,6 +200,7 @@ def test_tables_of_offices():
     for only in ("b=2", "b = 2", "b=2.0", "B = 2.00"):
         expect_equal(observed_stops({"csv": "t.csv", "only": only}, ("t.csv", "id;x;b\n" + rows)), two, only)
     expect_equal(observed_stops({"csv": "t.csv", "only": "b=2"}, ("t.csv", "id;x;b\n" + rows.replace(";2\n", ";2.0\n"))), two)
+    expect_equal(observed_stops({"csv": "t.csv", "only": "b=2"}, ("t.csv", "id;x;b\n" + rows.replace(";2\n", ';"2"\n'))), two)
     plan = "id,x_m,y_m,runout_m\n1,700040,4800000,40.5\n2,700051,4800003,51.25\n3,700047,4800001,47\n4,700066,4800009,66\n"
     for head in ("id,x_m,y_m,runout_m", "id,x,y,runout_m", "id,x,northing,runout_m", "id,X (m),Y (m),runout_m"):
         text = plan.replace("id,x_m,y_m,runout_m", head)

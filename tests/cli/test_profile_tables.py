@@ -150,6 +150,7 @@ def test_numbers():
                      rows(";").replace("412.5", "1\u2019412.5").replace(";398", ";1\u2019398").replace(";371", ";1\u2019371").replace(";345", ";1\u2019345")
                      .replace(";330", ";1'330").replace(";326", ";1'326")):
             expect_read(f, "p.csv", "distance{0}elevation\n{1}".format(";" if ";" in text else ",", text), HIGHER)
+        expect_refused(f, "p.csv", "distance elevation\n" + rows(" ").replace(" 371", ' 371 ""'), [":4:8: more columns than the first line has: 3 instead of 2"])
         for text, words in ((rows(";", ",").replace("398,2", "398.2"), ":3:6: the decimal sign of '398.2' is not the comma of line 2"),
                             (rows(";").replace("398.2", "398,2"), ":3:6: the decimal sign of '398,2' is not the dot of line 2"),
                             (rows(",", ","), ":2:7: more columns than the first line has: 3 instead of 2; if commas stand for decimals, separate"),
@@ -158,7 +159,11 @@ def test_numbers():
                             (rows().replace(",371", ",37 1"), "'37 1': two numbers in one cell"),
                             (rows().replace(",371", ",37\u200b1"), "the number contains the invisible character U+200B"),
                             (rows().replace(",371", ",1.371.2"), "'1.371.2' is not a number"), (rows().replace(",371", ",3,71"), "more columns"),
-                            (rows().replace("40,", "40;"), "too few columns: 1, the head has 2"), (rows().replace(",371", ",l371"), "'l371' is not a number")):
+                            (rows().replace("40,", "40;"), "too few columns: 1, the head has 2"), (rows().replace(",371", ",l371"), "'l371' is not a number"),
+                            (rows(";", ",").replace(";371", ";1.371 m"), ":4:4: '1.371' can be read in two ways: write '1371' or '1,371'"),
+                            (rows(";").replace("398.2", "1\u202f398,2"), "the decimal sign of '1\u202f398,2' is not the dot of line 2"),
+                            (rows(";").replace("398.2", "1,234,567"), ":3:6: 1234567 is outside the range"),
+                            (rows().replace("160,", "1e999,"), ":7:1: 1e999 is outside the range")):
             expect_refused(f, "p.csv", "distance{0}elevation\n{1}".format(";" if ";" in text.split("\n")[0] else ",", text), [words])
 
 
@@ -166,6 +171,7 @@ def test_open_numbers_without_a_head():
     """A table without a head and with ambiguous numbers is accepted, and the numbers are asked about"""
     with Folder() as f:
         expect_refused(f, "p.csv", "0;1.412\n40;1.371\n90;1.326\n", [":1:3: '1.412' can be read in two ways", "2 more"])
+        expect_refused(f, "p.csv", "0\t1,412\n40\t1,371\n", [":1:3: '1,412' can be read in two ways: write '1412' or '1.412'"])
         expect_read(f, "p.csv", "0;1412\n40;1.371,5\n90;1.326\n", [[0, 1412], [40, 1371.5], [90, 1326]], ["no head"])
 
 
@@ -181,7 +187,9 @@ def test_no_data():
         expect_refused(f, "p.csv", "distance,elevation\n" + rows().replace("371", "671"), [":4:1: ", "more than 200 m from both neighbours"])
         expect_refused(f, "p.csv", "distance,elevation\n0,900\n20,880\n21,620\n22,870\n90,800\n", [":4:1: ", "more than 200 m"])
         expect_read(f, "p.csv", "distance,elevation\n0,300\n10,280\n12,40\n60,20\n90,0\n", [[0, 300], [10, 280], [12, 40], [60, 20], [90, 0]])  # a face, and the sea
-        expect_read(f, "p.csv", "distance,elevation\n0,64\n50,30\n90,0\n", [[0, 64], [50, 30], [90, 0]])
+        for points in ([[0, 64], [50, 30], [90, 0]], [[0, 90], [40, 50], [60, 50], [90, 10]], [[0, 900], [10, 600], [20, 300], [90, 290]]):
+            expect_read(f, "p.csv", "distance,elevation\n" + "".join(f"{x},{z}\n" for x, z in points), points)
+        expect_read(f, "p.csv", "x,z\n0,120\n50,100\n50,0\n90,-5\n", [[0, 120], [50, 100], [50.01, 0], [90, -5]], ["1 vertical step"])  # a cliff at the sea
 
 
 def line(to_east, to_north, points=POINTS):
@@ -191,7 +199,8 @@ def line(to_east, to_north, points=POINTS):
 def test_map():
     """A line on the map: metres are accepted, Web Mercator, degrees, turns and loops reported; Gauss-Boaga is not Mercator"""
     with Folder() as f:
-        for east, north in ((600000, 4870000), (1680000, 4850000), (2350000, 4700000), (2600000, 1200000), (950000, 6500000), (0, 0)):
+        for east, north in ((600000, 4870000), (1680000, 4850000), (2350000, 4700000), (2600000, 1200000), (950000, 6500000), (950000, 6200000),
+                            (1000000, 3000000), (0, 0)):
             expect_read(f, "p.csv", line(lambda x: east + 0.6 * x, lambda x: north - 0.8 * x), POINTS, ["columns x, y, z"])
         expect_in("not as EPSG:3857", check_text(f, line(lambda x: 1400000 + 0.6 * x, lambda x: 5150000 - 0.8 * x)))
         for east, north in ((1402000, 5390000), (1252344, 5465442), (1450000, 5300000)):  # 43.5, 44 and 43 degrees north
@@ -199,8 +208,16 @@ def test_map():
         expect_refused(f, "p.csv", line(lambda x: 11.25 + 7e-6 * x, lambda x: 43.5 - 7e-6 * x), ["not in degrees", "such as UTM"])
         expect_refused(f, "p.csv", "x,y,z\n0,0,90\n40,0,70\n10,1,60\n80,0,40\n", [":3:1: ", "turns back here"])
         expect_refused(f, "p.csv", "x,y,z\n0,0,90\n60,0,70\n60,40,60\n30,40,55\n30,-40,50\n90,-60,40\n", ["crosses itself"])
+        expect_read(f, "p.csv", "x,y,z\n0,0,90\n40,0,70\n39.95,0,69\n90,0,40\n", [[0, 90], [40, 70], [40.05, 69], [90.1, 40]])
+        expect_read(f, "p.csv", "x,y,z\n0,0,90\n40,0,70\n70,40,50\n115,-20,10\n", [[0, 90], [40, 70], [90, 50], [165, 10]])
+        expect_read(f, "p.csv", "distance (ft),x,y,z\n0,0,0,90\n164,30,40,60\n328,60,80,0\n", [[0, 90], [50, 60], [100, 0]], ["columns x, y, z"])
         expect_refused(f, "p.csv", "wkt\n\"POINT (1 2 3)\"\n", ["this is not WKT"])
         expect_refused(f, "p.csv", "wkt\n\"LINESTRING M (0 0 3, 0 90 4)\"\n", ["has no heights"])
+        for wkt, words in (("LINESTRING Z (0 0 9 1 2, 9 0 5 1 2)", "this is not WKT"), ("LINESTRING Z (0 0 9, 9 0 5", "this is not WKT"),
+                           ("LINESTRING Z (0 0 9, 9 0 -9999)", "a height of the line marks missing data")):
+            expect_refused(f, "p.csv", f'wkt\n"{wkt}"\n', [f":2:1: {words}"])
+        expect_read(f, "p.csv", 'layer;geom\nb;LINESTRING Z (0 0 1, 9 0 0)\na;"LINESTRING ZM (0 0 90 7, 30 40 60 8, 60 80 0 9)"\n',
+                    [[0, 90], [50, 60], [100, 0]], layer="a")
         expect_read(f, "p.csv", "SRID=32632;LINESTRINGZ(0 0 412.5,12.5 0 398.2,40 0 371,75.25 0 345.9,118 0 330.1,160 0 326)\n", POINTS)
         expect_read(f, "p.csv", 'name;geom\nb;MULTILINESTRING Z ((0 0 1, 9 0 0))\na;"MULTILINESTRING Z ((0 0 412.5,12.5 0 398.2,40 0 371,75.25 0 345.9,'
                     '118 0 330.1,160 0 326))"\n', POINTS, layer="a")
@@ -220,6 +237,10 @@ def test_several_lines():
         expect_read(f, "p.csv", twice, POINTS, ["line '1' of 2"], layer="1")
         expect_read(f, "p.csv", twice, [[0, 90], [60, 30], [100, 0]], layer="2")
         expect_refused(f, "p.csv", twice, ["no line '3'; the file has: 1, 2"], layer="3")
+        expect_refused(f, "p.csv", "x,z\n0,50\n0,40\n20,30\n0,10\n", ["0 follows 20"])  # the first point occurs twice: one line
+        many = ["line,x,z\n" + "".join(f"k{i},0,{i + 9}\nk{i},100,5\n" for i in range(n)) for n in (11, 1001)]
+        expect_refused(f, "p.csv", many[0], ["the file has 11 lines: k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, \u2026; name one in the slope"])
+        expect_read(f, "p.csv", many[1], [[0, 1008], [100, 5]], ["2 points, 100 m long, falls 1003 m; line 'k999'"], layer="k999")
         four = "".join(f"{600000 + x} 4870000 {x} {{}}\n" for x in (0, 20, 60, 90))
         both = "> one\n" + four.format(90, 70, 30, 0) + "> two\n" + "700000 4870000 0 80\n700000 4869950 50 40\n700000 4869900 100 10\n"
         expect_read(f, "p.csv", both, [[0, 90], [20, 70], [60, 30], [90, 0]], layer="one")
@@ -238,7 +259,10 @@ def test_walls():
                     ["1 overhang, at 20 m, replaced by its outer envelope"])
         expect_read(f, "p.csv", "x,z\n0,0\n66,24\n72,30\n70,40\n90,50\n", [[0, 0], [66, 24], [69.99, 28], [70, 40], [90, 50]], ["1 overhang"], reversed=True)
         expect_read(f, "p.csv", "x,z\n0,50\n20,40\n19,38\n18,30\n20,29\n30,24\n90,0\n", [[0, 50], [20, 40], [20.01, 29], [30, 24], [90, 0]])
+        expect_read(f, "p.csv", "x,z\n0,80\n20,60\n18,50\n24,44\n50,30\n48,20\n56,16\n90,0\n", [[0, 80], [20, 60], [20.01, 48], [24, 44], [50, 30],
+                    [50.01, 19], [56, 16], [90, 0]], ["2 overhangs, the first at 20 m, replaced by their outer envelope"])
         for text, words in (("x,z\n0,50\n20,40\n5,30\n10,0\n", "5 follows 20"), ("x,z\n0,50\n20,40\n18,45\n90,0\n", "18 follows 20"),
+                            ("x,z\n0,0\n20,10\n5,20\n10,50\n", "5 follows 20"),
                             ("x,z\n90,0\n20,40\n0,50\n", "sort the rows by distance"), ("x,z\n0,50\n10,48\n100,0\n20,45\n", "as numbers"),
                             ("x,z\n0,50\n20,40\n18,30\n", "distances must rise"), ("x,z\n5,50\n5,40\n", "all points lie at the same distance")):
             expect_refused(f, "p.csv", text, [words])

@@ -419,6 +419,8 @@ BAD = [  # (content, place, words)
     (HEAD + "\n" + ROW.replace("tree", "b" * 120), ":2:11", "b' is not a kind of stem"),
     (HEAD + "\n" + ROW.replace(",,tree", "," + "o" * 120 + ",tree"), ":2:10", "o' is an unknown species"),
     (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,20,21"), ":2:21", "at most 20 m"),
+    (HEAD + ",count\n" + ROW.replace("200,35", "1,0").replace("20,12,", "0.1,,,200"), "",
+     "2000000 stems per hectare of one class exceed the limit of 1000000; check that the areas are in m2"),
     (HEAD + "\n" + ROW + "A,,,,,,,,\n" * 200000, ":200002:1", "more than 200000 rows"),
     ("\n".join([HEAD] + [f"P{i},200,,,,,,," for i in range(1001)]), ":1002:1", "more than 1000 plots"),
 ]

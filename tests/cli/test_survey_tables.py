@@ -191,6 +191,7 @@ def test_species():
                 expect_in(f"species: {species}\n", r.out, (word, r))
         for word in ("Fagus", "Quercus sp.", "Q. sylvatica", "Fagus sylvatica pendula", "P. abies nana", "oak"):
             refused(survey(f, ONE.format("") + f"1,400,tree,{word},20\n"), f"'{word}' is an unknown species")
+        refused(survey(f, f"plot,area_m2,kind,Genere,Specie,dbh_cm\n1,400,tree,{'F' * 128},sylvatica,20\n"), "'sylvatica' is an unknown species")
         read(f, "plot,area_m2,kind,Genere,Specie,dbh_cm\n1,400,tree,Fagus,sylvatica,20\n", {"trees": 25})
 
 
@@ -217,6 +218,10 @@ def test_counts():
         for value, words in (("2.5", "'count' must be a whole number"), ("-1", "-1 is outside the range 0 to 200000 stems"), ("", "'count' is missing"),
                              ("two", "'two' is not a number")):
             refused(survey(f, tally.format("count").replace(",25,4", f",25,{value}")), "plots.csv:4:21", words)
+        for row in (",,,,,Total\n", "1,,albero,Total,60,23\n"):
+            read(f, tally.format("count") + row, {"trees": per_ha((23, 400), (14, 400))}, "1 row of totals left out")
+        refused(survey(f, tally.format("count").replace("\n1,400", "\n,400")), "plots.csv:2:1", "'plot' is missing")
+        expect_in("; read as: d = dbh_cm, h = height_m", understood(survey(f, "plot,area_m2,kind,d,h\n1,400,tree,20,14\n")))
         read(f, tally.format("count").replace("2,400,albero,faggio,15,5\n", "2,400,,,,\n"), {"trees": per_ha((23, 400), (9, 400))})
         read(f, "plot,area_m2,kind,stool,dbh_cm,count\n1,200,shoot,3,6,4\n1,,shoot,3,8,2\n1,,shoot,4,7,0\n",
              {"shoots": 300, "stools": 50})
@@ -247,6 +252,7 @@ def test_status():
         read(f, ONE.format(",status,count") + "1,400,tree,beech,15,dead,3\n1,,tree,beech,20,live,2\n2,400,tree,beech,15,live,1\n",
              {"trees": per_ha((2, 400), (1, 400))}, "3 dead left out")
         read(f, ONE.format(",status") + "1,400,tree,,15,\n1,,tree,,15,dead\n", {"trees": 25}, "; 1 dead left out; 1 without a status counts as live")
+        read(f, ONE.format(",status") + "1,400,tree,,15,live\n1,,tree,,15,cut\n", {"trees": 25}, "; 1 cut left out")
         read(f, "Zustand,plot,area_m2,kind,dbh_cm\ntot,1,400,tree,15\nlebend,1,400,tree,20\n", {"trees": 25}, "; 1 dead left out")
         r = survey(f, ONE.format(",status") + "1,400,stump,,30,cut\n1,,tree,,20,live\n")
         expect_in("1 tree, 1 stump; dbh 20 cm", understood(r))
@@ -282,6 +288,8 @@ def test_units():
         both = ONE.format(",circ_cm") + "1,400,tree,,20,{}\n1,,tree,,,94.25\n"
         read(f, both.format("62.8"), {"trees": 50}, "dbh 20 to 30 cm")
         refused(survey(f, both.format("82")), "a circumference of 82 cm is a diameter of 26.1 cm, not 20; leave one empty")
+        refused(survey(f, both.format("50")), "a circumference of 50 cm is a diameter of 15.9 cm, not 20; leave one empty")
+        refused(survey(f, both.format("wide")), "'wide' is not a number")
         read(f, both.format(""), {"trees": 50})
         refused(survey(f, both.format("62.8").replace(",94.25", ",")), "'dbh_cm' is missing")
         refused(survey(f, "plot,area_m2,kind\n1,400,tree\n"), "must name the column 'dbh_cm' or 'circumference_cm'; it has: plot, area_m2, kind")
@@ -291,6 +299,8 @@ def test_units():
             read(f, thick.format(mended, value), {"trees": 2.5}, "given in mm")
         refused(survey(f, thick.format("dbh_mm", 3200)), "more than 300 cm; correct it")
         refused(survey(f, ONE.format("") + "1,400,tree,,10-15\n"), "'10-15' is a class; write its middle, 12.5")
+        for value in ("10-15x", "-5-10"):
+            refused(survey(f, ONE.format("") + f"1,400,tree,,{value}\n"), f"'{value}' is not a number")
         read(f, ONE.format("") + "1,400,tree,,12.5\n", {"trees": 25})
 
 
@@ -306,6 +316,11 @@ def test_tallies():
         read(f, "plot,area_m2,kind,dbh_cm,stool,shoots\n1,400,shoot,6,1,5\n1,,standard,25,,\n", {"shoots": 125, "stools": 25, "standards": 25})
         read(f, head.format(",n. fusti") + "1,400,15,,2,1,3\n1,,20,,1,,1\n", {"standards": 75, "trees": 25})
         refused(survey(f, head.format(",n. fusti") + "1,400,15,,2,1,4\n"), "'count' is 4, but 'shoots', 'standards' and 'trees' add up to 3")
+        own = "plot,area_m2,kind,dbh_cm,trees,count\n1,400,tree,20,3,{}\n"
+        read(f, own.format(3), {"trees": 75})
+        refused(survey(f, own.format(4)), "'count' is 4, but 'shoots', 'standards' and 'trees' add up to 3")
+        read(f, head.format("") + "1,400,20,,2,\n2,400,,0,0,0\n", {"standards": per_ha((2, 400), (0, 400))}, "2 plots of 400 m2")
+        refused(survey(f, head.format("") + "1,400,20,,2,\n2,400,,,5,\n"), "plots.csv:3:7", "'dbh_cm' is missing")
         refused(survey(f, "plot,area_m2,kind,dbh_cm,shoots\n1,400,tree,16,5\n"), "this row has another kind of stem; leave 'shoots' empty here")
         refused(survey(f, head.format("") + "1,400,5,30,,\n"), "plots.csv:2:13", "(column 'stools')")
         classes = "plot,area_m2,dbh_cm,shoots,stools\n1,400,5,30,{}\n1,,10,11,{}\n"
@@ -333,6 +348,7 @@ def test_sites():
              {"trees": per_ha((2, 400), (1, 400))}, "2 plots of 400 m2, distinguished by particella", "not used: comune")
         layers = "strato,plot,area_m2,kind,dbh_cm\nalto,1,400,tree,30\nbasso,1,400,tree,10\nalto,1,400,tree,28\n"
         refused(survey(f, layers), "plots.csv:4:1: the rows of plot '1' alternate between values of 'strato'", "otherwise rename it")
+        refused(survey(f, layers.replace(",1,", f",{'p' * 101},")), f"the rows of plot '{'p' * 100}' alternate")
         read(f, layers.replace("strato", "piano"), {"trees": 75}, "not used: piano")
         read(f, "".join([layers.splitlines(True)[i] for i in (0, 1, 3, 2)]), {"trees": per_ha((2, 400), (1, 400))}, "distinguished by strato")
         refused(survey(f, "site,plot,area_m2,kind,dbh_cm\nA,1,400,tree,20\nB,,,tree,20\n"), "plots.csv:3", "'plot' is missing")
@@ -341,9 +357,14 @@ def test_sites():
             refused(survey(f, cases.format(site, plot)), "plots.csv:3:1: the names of this plot and of the plot on line 2 differ only in case")
         read(f, cases.format("A", "p1"), {"trees": 50})
         read(f, cases.format("A", "p2"), {"trees": 25})
+        read(f, cases.format("A", "p10"), {"trees": 25})
+        r = survey(f, cases.format("A", "p2") + "A,P1,400,tree,22\nA,P2,400,tree,22\n")
+        refused(r, "plots.csv:4:1: the names of this plot and of the plot on line 2 differ only in case")
+        expect_equal(r.err.count("differ only in case"), 1, r)  # stops at the first
         years = "year,plot,area_m2,kind,dbh_cm\n2015,1,400,tree,20\n{},1,,tree,22\n2020,2,400,tree,22\n"
         for head in ("year", "Anno", "INVYR"):
             refused(survey(f, years.format(2020).replace("year", head)), "plots.csv:3:1: this plot was surveyed in the years 2015 and 2020; keep")
+        refused(survey(f, years.format("1" * 21).replace("2015", "2" * 21)), f"in the years {'2' * 20} and {'1' * 20}; keep")
         read(f, years.format(2015), {"trees": per_ha((2, 400), (1, 400))})
         read(f, years.format("").replace("2020,1,,tree,22\n", ""), {"trees": per_ha((2, 400), (1, 400))})
         read(f, years.format(2020).replace("year", "planted"), {"trees": per_ha((2, 400), (1, 400))}, "not used: planted")
@@ -351,6 +372,9 @@ def test_sites():
         twice = "plot,area_m2,kind,{},dbh_cm\n1,400,tree,5,20\n1,,tree,6,20\n2,400,tree,5,21\n1,,tree,5,20\n1,,standard,6,20\n"
         for head in ("id", "n. pianta", "TREE", "id fusto"):
             read(f, twice.format(head), {"trees": 50, "standards": 12.5}, "; 1 stem occurs twice (line 5)")
+        for ids in ((5, 6, 5, 6), (5, 6, 6, 5)):
+            several = "plot,area_m2,kind,id,dbh_cm\n" + "".join(f"1,400,tree,{i},20\n" for i in ids)
+            read(f, several, {"trees": 100}, "; 2 stems occur twice (the first on line 4)")
         expect("twice" not in survey(f, twice.format("id").replace("1,,tree,5", "1,,tree,7")).err)
 
 
