@@ -23,14 +23,14 @@ struct numeral {
     char sign; /* the only sign, or the last */
 };
 
-/* Return the bytes of a thousands separator that is neither a dot nor a comma; 0: none. */
+/* Return the bytes of a thousands separator that is neither a dot nor a comma; 0: none. Requires p < end. */
 static size_t measure_spacer(const char *p, const char *end)
 {
-    if (p < end && *p == '\'')
+    if (*p == '\'')
         return 1;
     if (end - p >= 3 && memcmp(p, "\xe2\x80\x99", 3) == 0) /* U+2019 */
         return 3;
-    return p < end && *p == '\t' ? 0 : ceduo_utf8_blank(p, (size_t)(end - p));
+    return *p == '\t' ? 0 : ceduo_utf8_blank(p, (size_t)(end - p));
 }
 
 static bool is_digit(char c)
@@ -45,7 +45,7 @@ static bool are_groups(const char *p, const char *end, char sign)
     bool good = n >= 1 && n <= 3 && p[0] != '0';
     for (p += n; good && p < end; p += 4)
         good = *p == sign && strspn(p + 1, "0123456789") == 3;
-    return good && p == end;
+    return good;
 }
 
 static void read_signs(struct numeral *numeral)
@@ -105,15 +105,13 @@ static enum csv_numeral split_number(struct csv_cell cell, struct numeral *numer
     if (wrong_group)
         return CSV_NUMERAL_TWO_NUMBERS;
     read_signs(numeral);
-    if (spaced && numeral->signs == SIGNS_TWO_WAYS)
-        numeral->signs = SIGNS_DECIMAL;
     return n > 0 ? CSV_NUMERAL_GOOD : CSV_NUMERAL_NONE;
 }
 
 /* Return the decimal sign of a number; '\0': undecided. */
 static char get_decimal(const struct numeral *numeral)
 {
-    switch (numeral->signs) {
+    switch (numeral->signs) { /* untaken: table */
     case SIGNS_DECIMAL:
     case SIGNS_GROUPS_DECIMAL:
         return numeral->sign;
@@ -192,16 +190,17 @@ bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum c
     snprintf(word, sizeof word, "%.*s", fits ? (int)cell.n : 0, cell.p);
     if (!fits)
         ceduo_csv_error(csv, cell, _("'%s' is not a number"), "\xe2\x80\xa6");
-    else if (hidden && reason != CSV_NUMERAL_TWO_WAYS && reason != CSV_NUMERAL_OTHER_SIGN)
+    else if (hidden && reason != CSV_NUMERAL_OTHER_SIGN)
         ceduo_csv_error(csv, cell, _("the number contains the invisible character U+%04X; remove it"), (unsigned)hidden);
-    else if (reason == CSV_NUMERAL_TWO_WAYS && split_number(cell, &n) == CSV_NUMERAL_GOOD)
+    else if (reason == CSV_NUMERAL_TWO_WAYS) {
+        split_number(cell, &n);
         ceduo_csv_error(csv, cell, _("'%s' can be read in two ways: write '%.*s%s' or '%.*s%c%s'"), word,
                         (int)strcspn(n.text, ".,"), n.text, strpbrk(n.text, ".,") + 1, (int)strcspn(n.text, ".,"), n.text,
                         csv->decimal    ? csv->decimal
                         : n.sign == '.' ? ','
                                         : '.',
                         strpbrk(n.text, ".,") + 1);
-    else if (reason == CSV_NUMERAL_TWO_NUMBERS)
+    } else if (reason == CSV_NUMERAL_TWO_NUMBERS)
         ceduo_csv_error(csv, cell, _("'%s': two numbers in one cell; keep one"), word);
     else if (reason == CSV_NUMERAL_OTHER_SIGN)
         ceduo_csv_error(csv, cell, _("the decimal sign of '%s' is not the %s of line %zu; use one sign in the whole table"),
@@ -227,7 +226,7 @@ bool ceduo_csv_number(const struct csv *csv, struct csv_cell cell, double lo, do
     ceduo_csv_split_unit(&bare, unit);
     enum csv_numeral numeral = ceduo_csv_normalize_number(csv, bare, text);
     if (numeral != CSV_NUMERAL_GOOD)
-        return ceduo_csv_report_number(csv, cell, numeral);
+        return ceduo_csv_report_number(csv, numeral == CSV_NUMERAL_TWO_WAYS ? bare : cell, numeral);
     bool large = ceduo_number_read(text, value) == CEDUO_NUMBER_TOO_LARGE;
     if (!large && *value >= lo && *value <= hi)
         return true;

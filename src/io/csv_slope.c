@@ -82,7 +82,7 @@ static size_t get_layer(struct reader *r, const char *name, size_t n)
         if (strlen(r->layers[i]) == n && memcmp(r->layers[i], name, n) == 0)
             return i;
     if (r->layers_count == LAYERS_MAX)
-        return LAYERS_MAX - 1;
+        return LAYERS_MAX; /* no line has its points */
     r->layers[r->layers_count] = ceduo_arena_copy(r->arena, name, n);
     return r->layers[r->layers_count] ? r->layers_count++ : 0;
 }
@@ -198,7 +198,7 @@ static bool read_wkt(struct reader *r, const char *p, const char *end, size_t li
         size_t n = read_tuple(&p, end, values);
         if (n < 2)
             return reject_at(r, &raw, _("this is not WKT; write LINESTRING Z (x y z, x y z, …)"));
-        if (n < 3 || (measured && n == 3))
+        if (n < (measured ? 4 : 3))
             return reject_at(
                 r, &raw,
                 _("the line has no heights; drape it over the terrain model (in QGIS: Drape) to make it a LINESTRING Z"));
@@ -391,7 +391,7 @@ static bool choose_layer(struct reader *r, const char *wanted)
     if (wanted && found == r->layers_count)
         return ceduo_problem(r->problems, r->csv.source, 0, 0, _("no line '%s'; the file has: %s"), wanted,
                              ceduo_text_string(&names));
-    if (found == SIZE_MAX && r->layers_count > 1)
+    if (found == SIZE_MAX && r->layers_count > 1) /* untaken: memory */
         r->several = ceduo_arena_string(r->arena, ceduo_text_string(&names));
     if (r->several)
         return ceduo_problem(r->problems, r->csv.source, 0, 0,
@@ -434,7 +434,7 @@ static bool check_coordinates(struct reader *r, double length)
         east = fmax(east, r->raw[i].x);
         north = fmax(north, r->raw[i].y);
     }
-    if (r->n > 1 && length < LINE_MIN && length > 0)
+    if (length < LINE_MIN && length > 0)
         return ceduo_problem(
             r->problems, r->csv.source, r->csv.head_place.line, 1,
             _("the line is %.2g m long on the map: x and y must be in metres, not in degrees; export it in the "
@@ -491,6 +491,7 @@ static bool measure_line(struct reader *r)
 {
     for (size_t i = 1; i < r->n; i++)
         r->raw[i].along = r->raw[i - 1].along + step_between(&r->raw[i - 1], &r->raw[i]);
+    /* untaken: memory */
     return check_coordinates(r, r->n > 0 ? r->raw[r->n - 1].along : 0) && check_turns(r) && check_crossings(r);
 }
 
@@ -566,7 +567,7 @@ static bool make_rising(struct reader *r, struct points *p, double sign)
         double x = sign * now->along, z = now->z, x_last = sign * last->along;
         if (i > 0 && x == x_last && z == last->z) {
             repeated++;
-        } else if (x > edge && x_last < edge && i > 0) { /* end of an overhang */
+        } else if (x > edge && x_last < edge) { /* end of an overhang */
             double t = (edge - x_last) / (x - x_last);
             add_vertex(p, edge + WALL_RUN, last->z + t * (z - last->z));
             add_vertex(p, x, z);
@@ -575,7 +576,7 @@ static bool make_rising(struct reader *r, struct points *p, double sign)
         } else if (x == edge && x_last == edge) {
             add_vertex(p, edge + WALL_RUN, z);
             wall = walls++ == 0 ? sign * edge : wall;
-        } else if (x <= edge) {
+        } else {
             if (z >= last->z || edge - x > OVERHANG_MAX || i + 1 == n)
                 return refuse_order(r, sign > 0 ? now : last, (sign > 0 ? last : now)->along);
             overhang = x_last == edge && overhangs++ == 0 ? sign * edge : overhang;
@@ -633,7 +634,7 @@ static void describe_table(struct reader *r, struct points *p, const char *path)
 {
     LOCAL_TEXT(line);
     const struct csv *csv = &r->csv;
-    const bool wkt = r->columns[WKT] != CEDUO_CSV_NOT_FOUND, table = csv->heads_count > 0 && !csv->headless;
+    const bool wkt = r->columns[WKT] != CEDUO_CSV_NOT_FOUND, table = !csv->headless;
     size_t used[5] = {r->columns[wkt ? WKT : r->map ? EAST : DISTANCE]}, n = 1;
     double rise = p->z[p->n - 1] - p->z[0];
     if (!wkt && r->map)
@@ -678,7 +679,6 @@ static bool read_points(struct reader *r)
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *layer, struct points *points,
                           struct problems *problems)
 {
-    size_t before = problems->met;
     struct reader *r = ceduo_arena_alloc(arena, sizeof *r);
     *points = (struct points){0};
     if (!r)
@@ -687,7 +687,7 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *lay
     bool good = ceduo_csv_open(&r->csv, arena, path, problems) && check_table(&r->csv, problems) && read_points(r) &&
                 (r->n == 0 || (choose_layer(r, layer) &&
                                (r->map ? measure_line(r) : !has_coordinates(r) || check_distances(r)) && check_heights(r))) &&
-                make_points(r, points) && problems->met == before;
+                make_points(r, points);
     points->lines = r->several;
     if (good && points->n > 0)
         describe_table(r, points, path);

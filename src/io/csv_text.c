@@ -60,7 +60,7 @@ static bool decode_utf16(struct csv *csv)
     bool big = p[0] == 0 || p[0] == 0xfe;
     size_t mark = (p[0] | p[1]) >= 0xfe;
     uint16_t *units = ceduo_arena_alloc(csv->arena, (n + 1) * sizeof *units);
-    if (!units)
+    if (!units) /* untaken: memory */
         return false;
     for (size_t i = 0; i < n; i++)
         units[i] = (uint16_t)(p[2 * i + big] | p[2 * i + !big] << 8);
@@ -105,6 +105,7 @@ static bool decode(struct csv *csv)
     size_t line = 1;
     for (const char *p = s->bytes; nul && p < nul; p++)
         line += *p == '\n';
+    /* untaken: complaint */
     return !nul || ceduo_problem_at(csv->problems, (struct problem_place){.source = s, .own = true},
                                     _("a NUL byte (U+0000) on line %zu; save it again as CSV in UTF-8"), line);
 }
@@ -116,7 +117,7 @@ static bool end_lines(struct csv *csv)
     if (memchr(s->bytes, '\n', s->length) || !memchr(s->bytes, '\r', s->length))
         return true;
     char *bytes = ceduo_arena_copy(csv->arena, s->bytes, s->length);
-    for (size_t i = 0; bytes && i < s->length; i++)
+    for (size_t i = 0; bytes && i < s->length; i++) /* untaken: memory */
         if (bytes[i] == '\r')
             bytes[i] = '\n';
     s->bytes = bytes;
@@ -134,7 +135,7 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
     const char *binary = name_binary(csv->source);
     if (binary)
         return refuse(csv, binary);
-    if (!decode(csv) || !end_lines(csv)) {
+    if (!decode(csv) || !end_lines(csv)) { /* untaken: memory */
         if (problems->met == before)
             ceduo_oom_set_flag();
         return false;

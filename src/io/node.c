@@ -106,7 +106,7 @@ const struct node *ceduo_node_with(struct arena *arena, const struct node *map, 
 
 const struct node *ceduo_node_without(struct arena *arena, const struct node *map, const char *key)
 {
-    for (size_t i = 0; map && i < map->n; i++)
+    for (size_t i = 0; map && i < map->n; i++) /* untaken: memory */
         if (strcmp(map->items[i]->key, key) == 0)
             return ceduo_node_removed(arena, map, i);
     return map;

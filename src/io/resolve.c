@@ -350,23 +350,27 @@ static bool keeps_source(const struct resolver *s, const struct field *f, const 
            !now.source->is_option || (old && ceduo_node_equal(&before, &now));
 }
 
-/* Return the assumed ground of a slope without ground as a list, if the next step of the path names it; NULL: no, or on
- * failure. */
-static const struct node *make_assumed_ground(struct resolver *s, size_t offset)
+/* True if the next step of the path names the assumed ground. */
+static bool names_assumed_ground(const struct resolver *s, size_t offset)
+{
+    struct path_step step;
+    int known = ceduo_path_next(s->set->bytes, s->length, &offset, &step) ? find_ground(&step) : -1;
+    return known >= 0 && strcmp(ceduo_material_words.names[known], ceduo_material_talus()->name) == 0;
+}
+
+/* Return the assumed ground as a list; NULL on failure. */
+static const struct node *make_assumed_ground(struct resolver *s)
 {
     const struct ceduo_material *talus = ceduo_material_talus();
-    struct path_step step;
-    if (!ceduo_path_next(s->set->bytes, s->length, &offset, &step) || find_ground(&step) < 0 ||
-        strcmp(ceduo_material_words.names[find_ground(&step)], talus->name) != 0)
-        return NULL;
     const char *const entries[][2] = {{"from_m", FIRST}, {"to_m", "end"}, {"material", talus->name}};
     const struct node *row = ceduo_node_empty(s->arena, NODE_MAP, s->set),
                       *list = ceduo_node_empty(s->arena, NODE_LIST, s->set);
+    /* untaken: memory */
     for (size_t i = 0; row && i < sizeof entries / sizeof entries[0]; i++) {
         const struct node *value = ceduo_node_scalar(s->arena, s->set, entries[i][1], false);
-        row = value ? ceduo_node_with(s->arena, row, entries[i][0], value) : NULL;
+        row = value ? ceduo_node_with(s->arena, row, entries[i][0], value) : NULL; /* untaken: memory */
     }
-    return row && list ? ceduo_node_inserted(s->arena, list, 0, row) : NULL;
+    return row && list ? ceduo_node_inserted(s->arena, list, 0, row) : NULL; /* untaken 2: memory */
 }
 
 static const struct node *set_entry(struct resolver *s, const struct object *object, const struct node *map,
@@ -397,8 +401,8 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
         const struct node *parts = ceduo_node_empty(s->arena, NODE_MAP, s->set); /* a number becomes {mean: number} */
         child = parts && child ? ceduo_node_with(s->arena, parts, "mean", child) : parts;
     } else if (!last && !child && f && f->object && ceduo_schema_field(f->object, "material") &&
-               !ceduo_node_get(map, "segments"))
-        child = make_assumed_ground(s, offset);
+               !ceduo_node_get(map, "segments") && names_assumed_ground(s, offset))
+        child = make_assumed_ground(s);
     else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = ceduo_node_empty(s->arena, NODE_MAP, s->set);
     else if (!last && !child) {

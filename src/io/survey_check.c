@@ -133,7 +133,8 @@ static bool check_sites(const struct survey_reader *r, const struct survey_plot 
     size_t line = a->returned ? a->returned : b->returned, site = 0;
     if (line == 0)
         return true;
-    while (site + 1 < SITES && ceduo_csv_compare(a->sites[site], b->sites[site]) == 0)
+    while (site + 1 < SITES && /* untaken: bound */
+           ceduo_csv_compare(a->sites[site], b->sites[site]) == 0)
         site++;
     LOCAL_TEXT(name);
     const struct csv_cell head = r->csv.heads[r->columns[SITE + site]];

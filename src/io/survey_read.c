@@ -343,7 +343,7 @@ static bool add_stems(struct survey_reader *r, struct ceduo_survey_stem stem, si
     r->shoots = shoots ? shoots : r->shoots;
     if (!stems || (shoot && !shoots))
         return false;
-    if (loose && n > 0 && !plot->has_loose) {
+    if (loose && !plot->has_loose) {
         plot->has_loose = true;
         plot->loose = r->csv.place;
     }
@@ -467,6 +467,7 @@ static bool check_numbering(struct survey_reader *r)
     r->csv.problems = r->problems;
     r->csv.next = begin;
     return !numbering || rises < 2 ||
+           /* untaken: complaint */
            ceduo_csv_error(&r->csv, r->csv.heads[r->columns[COUNT]],
                            _("this column goes 1, 2, 3; name it 'id' if it numbers the stems, 'count' if it counts them"));
 }
@@ -494,14 +495,21 @@ static int compare_ids(const void *a, const void *b)
     return order != 0 ? order : ceduo_csv_compare(x->id, y->id);
 }
 
+static int compare_ids_and_lines(const void *a, const void *b)
+{
+    const struct survey_id *x = a, *y = b;
+    int order = compare_ids(x, y);
+    return order != 0 ? order : compare_counts(x->line, y->line);
+}
+
 static void count_repeated(struct survey_reader *r)
 {
     if (r->ids_count > 0)
-        qsort(r->ids, r->ids_count, sizeof *r->ids, compare_ids);
+        qsort(r->ids, r->ids_count, sizeof *r->ids, compare_ids_and_lines);
     for (size_t i = 1; i < r->ids_count; i++) {
         if (compare_ids(&r->ids[i - 1], &r->ids[i]) != 0)
             continue;
-        size_t a = r->ids[i - 1].line, b = r->ids[i].line, line = a > b ? a : b;
+        size_t line = r->ids[i].line;
         r->repeated_line = r->repeated++ == 0 || line < r->repeated_line ? line : r->repeated_line;
     }
 }

@@ -310,8 +310,8 @@ static bool check_released(const struct entry *e)
 {
     const struct observed_values *values = e->values;
     unsigned long long observed = e->kind_row->list ? values->values_count : values->count, released = values->released_count;
-    /* untaken: complaint */
     return released == 0 || observed <= released ||
+           /* untaken: complaint */
            ceduo_reject(e->v, e->path, "of", _("%llu observed, but only %llu released; correct one"), observed, released);
 }
 

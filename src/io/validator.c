@@ -119,8 +119,8 @@ bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key
 
 bool ceduo_check_order(struct validator *v, const char *path, double from, double to)
 {
-    /* untaken: complaint */
     return !(to <= from) ||
+           /* untaken: complaint */
            ceduo_reject(v, path, "to_m", _("the end (%s) must lie beyond the start (%s)"), ROUNDTRIP(to), ROUNDTRIP(from));
 }
 

@@ -249,7 +249,7 @@ static unsigned half_at(const char *p, size_t n, unsigned lo)
 static void note_joined(struct reader *r, size_t line, size_t column)
 {
     struct joined *all = ceduo_arena_grow(r->arena, r->joined, r->joined_count, 1, &r->joined_capacity, sizeof *all);
-    if (!all) {
+    if (!all) { /* untaken: memory */
         stop(r);
         return;
     }
@@ -265,14 +265,14 @@ static void join_halves(struct reader *r)
     size_t n = r->length, line = 0, column = 0, length = 0;
     char quote = 0, before = 0; /* before: last character that is not a blank; 0: at the start of a line */
     char *to = NULL;
-    for (size_t i = 0, used; i < n && !r->stopped; i += used) {
+    for (size_t i = 0, used; i < n && !r->stopped; i += used) { /* untaken: memory */
         unsigned high = quote == '"' ? half_at(from + i, n - i, 0xd800) : 0;
         unsigned low = high ? half_at(from + i + 6, n - i - 6, 0xdc00) : 0;
         char c = from[i], escape[16];
         used = low ? 12 : quote == '"' && c == '\\' && i + 1 < n && from[i + 1] != '\n' ? 2 : 1;
         if (low && !to) {
             to = ceduo_arena_alloc(r->arena, n + 1);
-            if (!to) {
+            if (!to) { /* untaken: memory */
                 stop(r);
                 return;
             }

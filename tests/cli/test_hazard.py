@@ -176,6 +176,8 @@ def test_no_size_in_all_modes():
         expect("NaN" not in (f.path / "page.html").read_text())
         page = " ".join(good(*WHOLE, "s.yaml", cwd=f.path).out.split())
         expect_in("all dimensions of a block are equal", page)
+        for shape in ("ellipsoid", "cylinder"):
+            expect_in("all dimensions of a block are equal", " ".join(good(*WHOLE, "-s", f"rock.shape={shape}", "s.yaml", cwd=f.path).out.split()))
         expect_in("100 rocks of many sizes", " ".join(good("--batch", "s.yaml", cwd=f.path).out.split()))
 
 
@@ -586,6 +588,7 @@ def test_refused():
             r = ceduo("--check", f.write("s.yaml", falls(blocks)))
             expect_equal(r.status, INPUT, r)
             expect_in(wanted, r.err)
+        expect_in("blocks: the list is empty", ceduo("--check", f.write("s.yaml", falls([], rock={"shape": "block"}))).err)
         for changes, wanted in (({"rocks_per_year": 3}, "rocks_per_year: blocks already says this; keep one of the two"),
                                 ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}}},
                                  "rock: 'blocks' gives the sizes of rocks; remove the size here, or its spread"),

@@ -158,6 +158,7 @@ def test_tables():
     refused("3 observed, but only 2 released; correct one", {"stops": {"csv": "stops.csv", "only": "block=a", "of": 2}}, table)
     refused("the table has no column 'length'; it has: id, Distance, block", {"stops": {"csv": "stops.csv", "column": "length"}}, table)
     refused("name the column with the values in 'column'; the table has: a, b", {"stops": {"csv": "t.csv"}}, ("t.csv", "a,b\n1,2\n"))
+    refused("the table has no column '+'; it has: ?, x", {"stops": {"csv": "t.csv", "column": "+"}}, ("t.csv", "?;x\n1;40\n"))
     refused("t.csv:1:1: the column 'a' occurs twice", {"stops": {"csv": "t.csv", "column": "a"}}, ("t.csv", "a,a\n1,2\n"))
     refused("no row of the table matches", {"stops": {"csv": "stops.csv", "only": "block=z"}}, table)
     refused("is not COLUMN=WORD", {"stops": {"csv": "stops.csv", "only": "block"}}, table)
@@ -201,6 +202,7 @@ def test_tables_of_offices():
         expect_equal(observed_stops({"csv": "t.csv", "only": only}, ("t.csv", "id;x;b\n" + rows)), two, only)
     expect_equal(observed_stops({"csv": "t.csv", "only": "b=2"}, ("t.csv", "id;x;b\n" + rows.replace(";2\n", ";2.0\n"))), two)
     expect_equal(observed_stops({"csv": "t.csv", "only": "b=2"}, ("t.csv", "id;x;b\n" + rows.replace(";2\n", ';"2"\n'))), two)
+    expect_equal(observed_stops({"csv": "t.csv"}, ("t.csv", "id,distance,y_m\n" + rows.replace(";", ","))), wanted)  # y_m is not used
     plan = "id,x_m,y_m,runout_m\n1,700040,4800000,40.5\n2,700051,4800003,51.25\n3,700047,4800001,47\n4,700066,4800009,66\n"
     for head in ("id,x_m,y_m,runout_m", "id,x,y,runout_m", "id,x,northing,runout_m", "id,X (m),Y (m),runout_m"):
         text = plan.replace("id,x_m,y_m,runout_m", head)

@@ -313,6 +313,9 @@ def test_ground_of_the_library():
     named = {"path": "slope.materials[talus].rn", "lo": 0.2, "hi": 0.5}
     rn = {i["path"]: i for i in answer(measured(slope=slope, uncertainty=[named]))["figures"][0]["inputs"]}["slope.materials[talus].rn"]
     expect_equal((rn["lo"], rn["hi"]), (0.2, 0.5))
+    slope["materials"][0]["rn"] = 0.31  # a value of the user has no published range
+    given = [i["path"] for i in answer(measured(slope=slope))["figures"][0]["inputs"]]
+    expect_equal(sorted(given), [f"slope.materials[talus].{k}" for k in ("friction", "roughness_m", "rt")])
 
 
 def test_threads():

@@ -180,6 +180,35 @@ def bad_set(value, words):
         expect("paper-site.yaml" not in done.err.splitlines()[0], "the fault is not the file's", done)
 
 
+def test_set_missing_ground():
+    """On a slope without ground, the path of the assumed ground sets it; other grounds and forms of the path are refused"""
+    with Folder() as f:
+        path = f.write("s.yaml", scene(slope={"vertices_m": [[0, 64], [100, 0]]}))
+        good("--check", "-s", "slope.materials[talus].rn=0.32", path)
+        for step in ("[cliff]", "[0]", "[nope]", "", ".", "["):
+            done = ceduo("--check", "-s", f"slope.materials{step}.rn=0.32", path)
+            expect_equal((done.status, done.out), (USAGE, ""), done)
+            expect_in("--set:1:7: there is no 'materials' here", done.err, step)
+
+
+def test_set_many_items():
+    """A name that no item has: the first twelve are listed"""
+    with Folder() as f:
+        path = f.write("s.yaml", scene(controls=[{"x_m": 60 + i} for i in range(13)]))
+        listed = ", ".join(f"[{i}]" for i in range(12))
+        expect_in(f"no such item; there are: {listed}, \u2026\n", ceduo("--check", "-s", "controls[road].x_m=70", path).err)
+
+
+def test_set_many_problems():
+    """A change with more problems than are listed is named before the first"""
+    with Folder() as f:
+        path = f.write("s.yaml", scene(controls=[{"x_m": 60 + i} for i in range(25)]))
+        done = ceduo("--check", "-s", "slope.vertices_m=[[0, 64], [50, 30]]", path)
+        expect_equal(done.status, USAGE, done)
+        expect(done.err.startswith("--set:1:18: the scene is valid without this change, but not with it:\n"), done)
+        expect_in("controls[0].x_m: 60 lies outside the slope, which goes from 0 to 50 m", done.err)
+
+
 def test_set_place():
     """-s shows its own text with a caret under the error"""
     done = ceduo("--batch", "-s", "rock.diameter_m=-1", PAPER)

@@ -221,6 +221,7 @@ def test_counts():
         for row in (",,,,,Total\n", "1,,albero,Total,60,23\n"):
             read(f, tally.format("count") + row, {"trees": per_ha((23, 400), (14, 400))}, "1 row of totals left out")
         refused(survey(f, tally.format("count").replace("\n1,400", "\n,400")), "plots.csv:2:1", "'plot' is missing")
+        refused(survey(f, tally.format("count") + ",400,,,,\n"), "plots.csv:8:1", "'plot' is missing")
         expect_in("; read as: d = dbh_cm, h = height_m", understood(survey(f, "plot,area_m2,kind,d,h\n1,400,tree,20,14\n")))
         read(f, tally.format("count").replace("2,400,albero,faggio,15,5\n", "2,400,,,,\n"), {"trees": per_ha((23, 400), (9, 400))})
         read(f, "plot,area_m2,kind,stool,dbh_cm,count\n1,200,shoot,3,6,4\n1,,shoot,3,8,2\n1,,shoot,4,7,0\n",

@@ -250,6 +250,7 @@ TEST(halves_of_a_character_are_joined)
     expect_title("\"a \\ud83d\\ude00 b\"", "a \xf0\x9f\x98\x80 b");
     expect_title("\"\\uD83D\\uDE00\\ud83d\\ude01\"", "\xf0\x9f\x98\x80\xf0\x9f\x98\x81");
     expect_title("\"\\u00e0 \\U0001f600\" # it's \"x", "\xc3\xa0 \xf0\x9f\x98\x80");
+    expect_title("\"\\ud83d\\ude00\" # it's \"x", "\xf0\x9f\x98\x80");
     expect_title("'\\ud83d\\ude00'", "\\ud83d\\ude00");
     expect_title("'it''s \"\\ud83d\\ude00'", "it's \"\\ud83d\\ude00");
     expect_title("it's \\ud83d\\ude00", "it's \\ud83d\\ude00");
