@@ -167,14 +167,12 @@ bool ceduo_csv_split_unit(struct csv_cell *cell, const char *units)
     return false;
 }
 
-/* Find the first invisible character, or control of writing direction, in a cell. 0: none. */
+/* Find the first invisible character, or control of writing direction, in a cell, which is valid UTF-8. 0: none. */
 static uint32_t find_hidden(struct csv_cell cell)
 {
     uint32_t code;
     for (size_t i = 0, n; i < cell.n; i += n) {
         n = ceduo_utf8_decode(cell.p + i, cell.n - i, &code);
-        if (n == 0)
-            return 0;
         if (ceduo_utf8_is_space(code) || uc_is_general_category_withtable(code, UC_CATEGORY_MASK_C))
             return code;
     }

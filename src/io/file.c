@@ -248,7 +248,7 @@ bool ceduo_file_write_all(int fd, const char *bytes, size_t n, const atomic_bool
 /* Write the bytes and close `fd`: NFS reports ENOSPC only on close(). */
 static bool write_and_close(int fd, const struct pending_file *file)
 {
-    bool good = ceduo_file_write_all(fd, file->bytes, file->n, NULL) && (!file->wait || !file->target || fsync(fd) == 0);
+    bool good = ceduo_file_write_all(fd, file->bytes, file->n, NULL) && (!file->target || fsync(fd) == 0);
     int error = errno;
     if (close(fd) != 0 && good)
         return false;

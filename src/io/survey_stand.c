@@ -84,6 +84,7 @@ static void print_comments(const struct writer *w)
 {
     const struct ceduo_survey_result *a = w->answer;
     struct text *out = w->out;
+    /* untaken: memory */
     ceduo_text_format(out, "# %s\n", w->file->understood ? w->file->understood : w->file->name);
     ceduo_text_format(out, "# %-10s %8s %8s    %s\n", "", _("per ha"), w->one_plot ? "" : _("s.e."),
                       w->one_plot ? "" : _("95 % interval"));
@@ -279,7 +280,7 @@ static void print_future(const struct writer *w)
     LOCAL_TEXT(origin);
     const struct node *stand = find_shipped(&arena, w->answer, &name);
     const struct node *growth = ceduo_node_get(stand, "growth"), *cutting = ceduo_node_get(stand, "cutting");
-    if (!growth || !cutting) {
+    if (!growth || !cutting) { /* untaken: table */
         ceduo_text_append(w->out, _("# ceduo has no stand of this species. Add growth and cutting for future years.\n"));
         return;
     }

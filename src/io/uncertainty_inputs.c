@@ -224,6 +224,7 @@ static void add_ground(struct input_finder *f, const struct ceduo_material *m)
 const char *ceduo_input_path(struct scene_file *file, const char *place)
 {
     size_t option;
+    /* untaken: bound */
     if (!place || !file->kept || sscanf(place, "options[%zu]", &option) != 1 || option >= file->scene.options_count)
         return place;
     return ceduo_arena_format(&file->arena, "options[%zu%s", file->kept[option], strchr(place, ']'));
@@ -248,6 +249,7 @@ static const char *make_common_path(struct scene_file *file, const struct ceduo_
         bool same = true;
         for (size_t k = 1; k < input->places_count; k++) {
             const char *bracket = find_bracket(input->places[k], n);
+            /* untaken: bound */
             same &= bracket && strtoul(bracket, NULL, 10) == strtoul(item, NULL, 10);
         }
         ceduo_text_append_n(&path, from, (size_t)(item - from));

@@ -623,6 +623,7 @@ size_t ceduo_input_count_places(struct scene_file *file, const char *path)
     struct value value;
     bool all = expand_path(&p, path);
     for (size_t i = 0; i < p.n && all; i++)
+        /* untaken: memory */
         all = p.items[i] && ceduo_value_find(&file->scene, p.items[i], &value);
     return all ? p.n : 0;
 }

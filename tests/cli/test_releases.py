@@ -80,6 +80,8 @@ def test_rounding():
 def test_errors():
     """An error names the file, the line and the remedy"""
     with Folder() as f:
+        many = f.write("s.yaml", {**hollow(0.5, 0.5), "release": [{"x_m": 5, "share": 1 / 1001}] * 1001})
+        expect_in("release: 1001 items; at most 1000 can be computed", ceduo("--check", many).err)
         for change, words in (({"share": 0.6}, "s.yaml:{release}: release: the shares add up to 1.1, not to 1; correct them"),
                               ({"share": 0}, "release[1].share: 0 is not above 0"), ({"share": 1.5}, "release[1].share: 1.5 is above 1"),
                               ({"share": None}, "release[1]: 'share' is missing"), ({"x_m": 500}, "release[1].x_m: 500 lies outside the slope"),

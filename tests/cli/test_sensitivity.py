@@ -301,6 +301,17 @@ def test_growth_leaves_today_alone():
     expect(wide > 1.2 * narrow, means)
 
 
+def test_many_places():
+    """Pairs of up to 30 places along the slope are checked"""
+    with Folder() as f:
+        for n, status in ((30, INPUT), (31, DONE)):
+            controls = [{"x_m": 60 + i / 2} for i in range(n - 1)]
+            rows = [{"path": "release.x_m", "lo": 0, "hi": 59.5}] + [
+                {"path": f"controls[{i}].x_m", "lo": x["x_m"] - 0.6, "hi": x["x_m"] + 0.1} for i, x in enumerate(controls)]
+            done = ceduo("--check", f.write("s.yaml", scene(controls=controls, uncertainty=rows)))
+            expect_equal((done.status, "cannot be computed together" in done.err), (status, status == INPUT), done)
+
+
 def test_ground_of_the_library():
     """A ground of the library has its published range at every place"""
     slope = {"vertices_m": [[0, 60], [50, 25], [100, 0]], "materials": [{"from_m": 0, "to_m": 100, "material": "talus"}]}

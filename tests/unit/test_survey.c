@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From plots to a stand: densities and their errors in a known forest, heights, classes, volumes. */
 #include "local.h"
+
+#include "folder.h"
 #include "study/naslund.h"
 #include "study/plots.h"
 
@@ -8,6 +10,7 @@
 #include <stdlib.h>
 
 #include "expect.h"
+#include "io/survey_file.h"
 #include "physics/line_scene.h"
 
 #define SIDE    500.0 /* m, of the simulated forest */
@@ -188,6 +191,27 @@ TEST(naslund_is_refused)
     assert_int_equal(ceduo_naslund_fit(5, dbh, falls, &curve), CEDUO_NO_FIT);
     assert_int_equal(ceduo_naslund_fit(5, dbh, runs_away, &curve), CEDUO_NO_FIT); /* as d3: b is below 0 */
     assert_int_equal(ceduo_naslund_fit(5, dbh, rises, &curve), CEDUO_OK);
+}
+
+/* Tall stems in a column that may hold altitudes: refused, then read as the user answers. */
+TEST_WITH(heights_are_asked_about, folder_set_up, folder_tear_down)
+{
+    char path[256];
+    struct survey_answers answers = {0};
+    folder_write("plots.csv", "plot,area_m2,kind,dbh,alt\n1,400,tree,60,120\n");
+    in_folder(path, "plots.csv");
+    for (int answer = 0; answer <= 2; answer++) {
+        LOCAL_ARENA(arena);
+        LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
+        struct survey_file file;
+        answers.given[SURVEY_HEIGHTS] = answer;
+        EXPECT(ceduo_survey_read(&file, &arena, path, &answers, &problems), ==, answer > 0);
+        EXPECT(answers.asked[SURVEY_HEIGHTS], ==, answer == 0);
+        if (answer == 1)
+            EXPECT_NEAR(file.survey.stems[0].height, 120, 0);
+        if (answer == 2)
+            assert_true(isnan(file.survey.stems[0].height));
+    }
 }
 
 static struct ceduo_survey_stem stem(enum ceduo_survey_kind kind, int species, double dbh, double height)
