@@ -199,8 +199,8 @@ def test_set_many_items():
         expect_in(f"no such item; there are: {listed}, \u2026\n", ceduo("--check", "-s", "controls[road].x_m=70", path).err)
 
 
-def test_set_many_problems():
-    """A change with more problems than are listed is named before the first"""
+def test_set_names_the_change():
+    """A change that makes many values invalid is named before the first of them"""
     with Folder() as f:
         path = f.write("s.yaml", scene(controls=[{"x_m": 60 + i} for i in range(25)]))
         done = ceduo("--check", "-s", "slope.vertices_m=[[0, 64], [50, 30]]", path)
