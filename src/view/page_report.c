@@ -21,7 +21,7 @@
 #define PROFILE_ROWS    24  /* rows of the slope above the strips, */
 #define PAIR_ROWS       18  /* and of two slopes next to each other, */
 #define CROWDED_ROWS    12  /* also above the table of many options */
-#define FENCE_ROWS      3   /* of the slope, which the sentences on a fence need */
+#define FENCE_ROWS      3   /* rows that the sentences on a fence take from the slope */
 
 static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int columns, int rows,
                         const struct ceduo_picture *picture, const char *description)

@@ -593,7 +593,7 @@ static bool see(void)
 
 TEST(views_of_runs)
 {
-    for (size_t sizes = 0; sizes < 2; sizes++) { /* of one size, of all sizes */
+    for (size_t sizes = 0; sizes < 2; sizes++) { /* one size, then all sizes */
         init(CEDUO_CONTACT_MODEL_STEMS, CEDUO_LAW_LUMPED);
         site.scene.blocks = &blocks;
         site.scene.blocks_count = sizes;
