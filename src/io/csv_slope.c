@@ -679,8 +679,8 @@ static bool read_points(struct reader *r)
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *layer, struct points *points,
                           struct problems *problems)
 {
-    struct reader *r = ceduo_arena_alloc(arena, sizeof *r);
     size_t before = problems->met;
+    struct reader *r = ceduo_arena_alloc(arena, sizeof *r);
     *points = (struct points){0};
     if (!r)
         return false;

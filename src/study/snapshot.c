@@ -81,12 +81,11 @@ static enum ceduo_status trace(struct ceduo_tracer *follower, uint64_t rock, str
 
 /* ---- one run ---- */
 
-static size_t place_cells(const struct ceduo_scene *scene, double *x)
+static void place_cells(const struct ceduo_scene *scene, double *x)
 {
     double from = ceduo_scene_release_last(scene), to = scene->slope.x[scene->slope.vertices - 1];
     for (size_t i = 0; i < CEDUO_SNAPSHOT_CELLS; i++)
         x[i] = from + (to - from) * ((double)i + 0.5) / CEDUO_SNAPSHOT_CELLS;
-    return CEDUO_SNAPSHOT_CELLS;
 }
 
 static enum ceduo_status read_energies(const struct ceduo_run *run, struct ceduo_run_snapshot *s)
@@ -226,7 +225,8 @@ enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, st
     o->differences = ceduo_arena_alloc(&o->memory, (scene->options_count * o->controls + 1) * sizeof *o->differences);
     enum ceduo_status status = o->memory.failed ? CEDUO_NO_MEMORY : CEDUO_OK;
     if (status == CEDUO_OK) {
-        o->cells = def->envelope_rocks > 0 ? place_cells(scene, o->cell_x) : 0;
+        o->cells = def->envelope_rocks > 0 ? CEDUO_SNAPSHOT_CELLS : 0;
+        place_cells(scene, o->cell_x);
         o->options = scene->options_count;
         status = reference_run_snapshot(def, o, NULL, &o->bare);
     }

@@ -174,6 +174,13 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
             ceduo_text_append(ceduo_page_item(page, CEDUO_PAGE_HEAD, lines[i][0]), lines[i][1] ? lines[i][1] : "");
 }
 
+/* True if a fence stands at the last control. */
+static bool has_fence(const struct ceduo_report *report)
+{
+    const struct ceduo_scene *scene = report->result->scene;
+    return scene->controls_count > 0 && ceduo_fence_stands(&scene->controls[report->result->last_control].fence);
+}
+
 /* Append the slope with the best option, and next to it the present one, which is the first. */
 static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
 {
@@ -182,8 +189,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
     bool pair = best != present;
     int columns = pair ? HALF_CELLS : FULL_CELLS;
     int profile = scene->options_count > CROWDED_OPTIONS ? CROWDED_ROWS : pair ? PAIR_ROWS : PROFILE_ROWS;
-    bool fence = scene->controls_count > 0 && ceduo_fence_stands(&scene->controls[report->result->last_control].fence);
-    int rows = profile + HEIGHT_ROWS + ENERGY_ROWS - (fence ? FENCE_ROWS : 0);
+    int rows = profile + HEIGHT_ROWS + ENERGY_ROWS - (has_fence(report) ? FENCE_ROWS : 0);
     struct ceduo_picture picture = make_picture(report, best);
     LOCAL_TEXT(title);
     if (scene->options_count < 2)
@@ -399,8 +405,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     }
     if (controls && !is_crowded(report))
         ceduo_page_laws(page, report);
-    if (report->snapshot && controls && !is_crowded(report) &&
-        ceduo_fence_stands(&scene->controls[report->result->last_control].fence)) {
+    if (report->snapshot && !is_crowded(report) && has_fence(report)) {
         struct ceduo_picture picture = make_picture(report, 0);
         add_picture(
             page, CEDUO_PLOT_FENCE, FULL_CELLS, HAZARD_ROWS, &picture,
