@@ -238,7 +238,7 @@ static void bind_count(struct binder *b, const struct field *f, const struct nod
     else if (!check_range(b, f, node, value))
         return;
     else if (ceduo_count_read(node->text, f->lo, f->hi, &count) != CEDUO_NUMBER_GOOD)
-        report(b, node, _("%s is above %s%s%s"), node->text, ROUNDTRIP(f->hi), f->unit[0] ? " " : "", f->unit);
+        report(b, node, _("%s is above %s%s%s"), node->text, ROUNDTRIP(f->hi), "", ""); /* the seed, which has no unit */
     else {
         warn_unusual(b, f, node, value);
         ceduo_schema_set_count(f, to, count);
@@ -517,7 +517,7 @@ static bool report_decimal_comma(struct binder *b, const struct node *map, size_
 static bool is_other_kind(struct binder *b, const struct object *object, const struct node *node)
 {
     const struct field *f = ceduo_schema_field(object, "ceduo");
-    const struct node *tag = f && f->type == FIELD_TAG ? ceduo_node_get(node, "ceduo") : NULL;
+    const struct node *tag = f ? ceduo_node_get(node, "ceduo") : NULL;
     const char *slash = tag && tag->kind == NODE_SCALAR ? strchr(tag->text, '/') : NULL;
     bool wrong = slash && strncmp(tag->text, f->value, (size_t)(slash + 1 - tag->text)) != 0;
     if (wrong)

@@ -281,8 +281,7 @@ static void find_head(struct csv *csv, const struct csv_head *heads, size_t n)
                 best_line = head;
             }
         }
-        if (!ceduo_source_next(csv->source, &line.offset, &from, &to))
-            break;
+        ceduo_source_next(csv->source, &line.offset, &from, &to);
         line.line++;
     }
     csv->next = best_line;
@@ -315,7 +314,7 @@ static void append_units(struct csv *csv)
         bool bare = unit.p[0] != '(' && unit.p[0] != '[';
         const char *whole = ceduo_arena_format(csv->arena, "%.*s %s%.*s%s", (int)head->n, head->p, bare ? "(" : "", (int)unit.n,
                                                unit.p, bare ? ")" : "");
-        if (whole)
+        if (whole) /* untaken: memory */
             *head = (struct csv_cell){.p = whole, .n = strlen(whole), .begin = head->begin, .quoted = head->quoted};
     }
 }
@@ -362,7 +361,7 @@ void ceduo_csv_begin_headless(struct csv *csv, char separator)
     if (!read_filled(csv))
         return;
     csv->heads = ceduo_arena_alloc(csv->arena, (csv->cells_count + 1) * sizeof *csv->heads);
-    csv->heads_count = csv->heads ? csv->cells_count : 0;
+    csv->heads_count = csv->heads ? csv->cells_count : 0; /* untaken: memory */
     csv->head_place = csv->place;
     csv->next = begin;
 }
@@ -495,6 +494,7 @@ struct csv_cell ceduo_csv_next_cell(const struct csv *csv, size_t column)
     if (column < csv->cells_count)
         return csv->cells[column];
     const char *row = csv->source->bytes + csv->place.offset;
+    /* untaken: memory */
     return (struct csv_cell){.p = "", .begin = csv->cells_count > 0 ? csv->cells[csv->cells_count - 1].begin : row};
 }
 

@@ -12,7 +12,7 @@
 enum signs {
     SIGNS_NONE,          /* digits only */
     SIGNS_DECIMAL,       /* one decimal sign */
-    SIGNS_TWO_WAYS,      /* one sign before three digits: decimals or thousands */
+    SIGNS_TWO_WAYS,      /* one sign between one to three digits and three: decimals or thousands */
     SIGNS_GROUPS,        /* several equal signs: thousands */
     SIGNS_GROUPS_DECIMAL /* thousands, then decimals */
 };
@@ -23,14 +23,14 @@ struct numeral {
     char sign; /* the only sign, or the last */
 };
 
-/* Return the bytes of a thousands separator that is neither a dot nor a comma; 0: none. */
+/* Return the bytes of a thousands separator that is neither a dot nor a comma; 0: none. Requires p < end. */
 static size_t measure_spacer(const char *p, const char *end)
 {
-    if (p < end && *p == '\'')
+    if (*p == '\'')
         return 1;
     if (end - p >= 3 && memcmp(p, "\xe2\x80\x99", 3) == 0) /* U+2019 */
         return 3;
-    return p < end && *p == '\t' ? 0 : ceduo_utf8_blank(p, (size_t)(end - p));
+    return *p == '\t' ? 0 : ceduo_utf8_blank(p, (size_t)(end - p));
 }
 
 static bool is_digit(char c)
@@ -38,14 +38,14 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* True if groups of digits between `sign` are 1 to 3, 3, 3, … long up to `end`. */
+/* True if groups of digits between `sign` are 1 to 3, 3, 3, … long up to `end`, where no digit stands. */
 static bool are_groups(const char *p, const char *end, char sign)
 {
     size_t n = strspn(p, "0123456789");
     bool good = n >= 1 && n <= 3 && p[0] != '0';
     for (p += n; good && p < end; p += 4)
         good = *p == sign && strspn(p + 1, "0123456789") == 3;
-    return good && p == end;
+    return good;
 }
 
 static void read_signs(struct numeral *numeral)
@@ -105,8 +105,6 @@ static enum csv_numeral split_number(struct csv_cell cell, struct numeral *numer
     if (wrong_group)
         return CSV_NUMERAL_TWO_NUMBERS;
     read_signs(numeral);
-    if (spaced && numeral->signs == SIGNS_TWO_WAYS)
-        numeral->signs = SIGNS_DECIMAL;
     return n > 0 ? CSV_NUMERAL_GOOD : CSV_NUMERAL_NONE;
 }
 
@@ -169,14 +167,12 @@ bool ceduo_csv_split_unit(struct csv_cell *cell, const char *units)
     return false;
 }
 
-/* Find the first invisible character, or control of writing direction, in a cell. 0: none. */
+/* Find the first invisible character, or control of writing direction, in a cell, which is valid UTF-8. 0: none. */
 static uint32_t find_hidden(struct csv_cell cell)
 {
     uint32_t code;
     for (size_t i = 0, n; i < cell.n; i += n) {
         n = ceduo_utf8_decode(cell.p + i, cell.n - i, &code);
-        if (n == 0)
-            return 0;
         if (ceduo_utf8_is_space(code) || uc_is_general_category_withtable(code, UC_CATEGORY_MASK_C))
             return code;
     }
@@ -192,16 +188,17 @@ bool ceduo_csv_report_number(const struct csv *csv, struct csv_cell cell, enum c
     snprintf(word, sizeof word, "%.*s", fits ? (int)cell.n : 0, cell.p);
     if (!fits)
         ceduo_csv_error(csv, cell, _("'%s' is not a number"), "\xe2\x80\xa6");
-    else if (hidden && reason != CSV_NUMERAL_TWO_WAYS && reason != CSV_NUMERAL_OTHER_SIGN)
+    else if (hidden && reason != CSV_NUMERAL_OTHER_SIGN)
         ceduo_csv_error(csv, cell, _("the number contains the invisible character U+%04X; remove it"), (unsigned)hidden);
-    else if (reason == CSV_NUMERAL_TWO_WAYS && split_number(cell, &n) == CSV_NUMERAL_GOOD)
+    else if (reason == CSV_NUMERAL_TWO_WAYS) {
+        split_number(cell, &n);
         ceduo_csv_error(csv, cell, _("'%s' can be read in two ways: write '%.*s%s' or '%.*s%c%s'"), word,
                         (int)strcspn(n.text, ".,"), n.text, strpbrk(n.text, ".,") + 1, (int)strcspn(n.text, ".,"), n.text,
                         csv->decimal    ? csv->decimal
                         : n.sign == '.' ? ','
                                         : '.',
                         strpbrk(n.text, ".,") + 1);
-    else if (reason == CSV_NUMERAL_TWO_NUMBERS)
+    } else if (reason == CSV_NUMERAL_TWO_NUMBERS)
         ceduo_csv_error(csv, cell, _("'%s': two numbers in one cell; keep one"), word);
     else if (reason == CSV_NUMERAL_OTHER_SIGN)
         ceduo_csv_error(csv, cell, _("the decimal sign of '%s' is not the %s of line %zu; use one sign in the whole table"),

@@ -434,7 +434,7 @@ static bool check_coordinates(struct reader *r, double length)
         east = fmax(east, r->raw[i].x);
         north = fmax(north, r->raw[i].y);
     }
-    if (r->n > 1 && length < LINE_MIN && length > 0)
+    if (length < LINE_MIN && length > 0)
         return ceduo_problem(
             r->problems, r->csv.source, r->csv.head_place.line, 1,
             _("the line is %.2g m long on the map: x and y must be in metres, not in degrees; export it in the "
@@ -567,7 +567,7 @@ static bool make_rising(struct reader *r, struct points *p, double sign)
         double x = sign * now->along, z = now->z, x_last = sign * last->along;
         if (i > 0 && x == x_last && z == last->z) {
             repeated++;
-        } else if (x > edge && x_last < edge && i > 0) { /* end of an overhang */
+        } else if (x > edge && x_last < edge) { /* end of an overhang */
             double t = (edge - x_last) / (x - x_last);
             add_vertex(p, edge + WALL_RUN, last->z + t * (z - last->z));
             add_vertex(p, x, z);
@@ -576,7 +576,7 @@ static bool make_rising(struct reader *r, struct points *p, double sign)
         } else if (x == edge && x_last == edge) {
             add_vertex(p, edge + WALL_RUN, z);
             wall = walls++ == 0 ? sign * edge : wall;
-        } else if (x <= edge) {
+        } else {
             if (z >= last->z || edge - x > OVERHANG_MAX || i + 1 == n)
                 return refuse_order(r, sign > 0 ? now : last, (sign > 0 ? last : now)->along);
             overhang = x_last == edge && overhangs++ == 0 ? sign * edge : overhang;
@@ -634,7 +634,7 @@ static void describe_table(struct reader *r, struct points *p, const char *path)
 {
     LOCAL_TEXT(line);
     const struct csv *csv = &r->csv;
-    const bool wkt = r->columns[WKT] != CEDUO_CSV_NOT_FOUND, table = csv->heads_count > 0 && !csv->headless;
+    const bool wkt = r->columns[WKT] != CEDUO_CSV_NOT_FOUND, table = !csv->headless;
     size_t used[5] = {r->columns[wkt ? WKT : r->map ? EAST : DISTANCE]}, n = 1;
     double rise = p->z[p->n - 1] - p->z[0];
     if (!wkt && r->map)
@@ -679,7 +679,6 @@ static bool read_points(struct reader *r)
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *layer, struct points *points,
                           struct problems *problems)
 {
-    size_t before = problems->met;
     struct reader *r = ceduo_arena_alloc(arena, sizeof *r);
     *points = (struct points){0};
     if (!r)
@@ -688,7 +687,7 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, const char *lay
     bool good = ceduo_csv_open(&r->csv, arena, path, problems) && check_table(&r->csv, problems) && read_points(r) &&
                 (r->n == 0 || (choose_layer(r, layer) &&
                                (r->map ? measure_line(r) : !has_coordinates(r) || check_distances(r)) && check_heights(r))) &&
-                make_points(r, points) && problems->met == before;
+                make_points(r, points);
     points->lines = r->several;
     if (good && points->n > 0)
         describe_table(r, points, path);

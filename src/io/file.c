@@ -248,7 +248,7 @@ bool ceduo_file_write_all(int fd, const char *bytes, size_t n, const atomic_bool
 /* Write the bytes and close `fd`: NFS reports ENOSPC only on close(). */
 static bool write_and_close(int fd, const struct pending_file *file)
 {
-    bool good = ceduo_file_write_all(fd, file->bytes, file->n, NULL) && (!file->wait || !file->target || fsync(fd) == 0);
+    bool good = ceduo_file_write_all(fd, file->bytes, file->n, NULL) && (!file->target || fsync(fd) == 0);
     int error = errno;
     if (close(fd) != 0 && good)
         return false;
@@ -321,7 +321,7 @@ static int open_in_place(const char *path)
 int ceduo_file_begin(struct pending_file *file)
 {
     mode_t mode = 0;
-    if (!find_target(file, &mode))
+    if (!find_target(file, &mode)) /* untaken: race */
         return -1;
     return file->target ? open_temporary(file, mode) : open_in_place(file->path);
 }
@@ -329,6 +329,7 @@ int ceduo_file_begin(struct pending_file *file)
 bool ceduo_file_finish(struct pending_file *file, int fd)
 {
     file->n = 0;
+    /* untaken 2: system */
     return write_and_close(fd, file) && (!file->target || ceduo_file_commit(file));
 }
 

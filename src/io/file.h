@@ -44,7 +44,7 @@ struct pending_file {
     const char *path;
     const char *bytes;
     size_t n;
-    bool wait;       /* until the disk has the bytes */
+    bool wait;       /* ceduo_file_commit() returns after the disk has the new name */
     char *target;    /* NULL: write in place */
     char *temporary; /* TARGET.ceduo-tmp-…; NULL: none, or renamed */
 };

@@ -74,7 +74,7 @@ static bool apply_change(struct scene_file *file, struct source set, struct prob
     if (!equals || strspn(source->bytes, " ") == (size_t)(equals - source->bytes))
         return ceduo_problem(problems, source, 1, 1, _("expected %s"), "PATH=VALUE");
     size_t length = (size_t)(equals - source->bytes), value_at = length + 1;
-    while (length > 0 && source->bytes[length - 1] == ' ')
+    while (source->bytes[length - 1] == ' ')
         length--;
     /* unquoted, '#' would begin a comment and ': ' a mapping */
     LOCAL_TEXT(path);

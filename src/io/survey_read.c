@@ -343,7 +343,7 @@ static bool add_stems(struct survey_reader *r, struct ceduo_survey_stem stem, si
     r->shoots = shoots ? shoots : r->shoots;
     if (!stems || (shoot && !shoots))
         return false;
-    if (loose && n > 0 && !plot->has_loose) {
+    if (loose && !plot->has_loose) {
         plot->has_loose = true;
         plot->loose = r->csv.place;
     }

@@ -233,7 +233,7 @@ static bool reuse_slope(struct validator *v)
             continue;
         else if (strcmp(n->kind, "assumed") == 0)
             ceduo_assume(v, n->path, n->text);
-        else if (strcmp(n->kind, CEDUO_NOTE_TABLE) == 0)
+        else
             ceduo_add_table_note(v, n->path, n->text);
     return true;
 }

@@ -115,7 +115,7 @@ static bool has_named_stand(struct validator *v, const struct node *stand)
     if (!name || !before || strcmp(name, before) != 0 || ceduo_node_text(written, "name"))
         return true;
     const struct node *own = written->kind == NODE_MAP ? copy_stems(v, written) : NULL;
-    if (own && own->n > (ceduo_node_get(own, "base") ? 1 : 0))
+    if (own && own->n > 1) /* more than its base */
         return false;
     const struct node *a = copy_stems(v, stand), *b = copy_stems(v, followed);
     return !a || !b || ceduo_node_equal(a, b);
