@@ -38,7 +38,7 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* True if groups of digits between `sign` are 1 to 3, 3, 3, … long up to `end`, where no digit stands. */
+/* True if groups of digits between `sign` are 1 to 3, 3, 3, … long up to `end`, which is no digit. */
 static bool are_groups(const char *p, const char *end, char sign)
 {
     size_t n = strspn(p, "0123456789");

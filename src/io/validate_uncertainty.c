@@ -524,6 +524,7 @@ static const char *value_text(struct validator *v, size_t i, size_t k)
     if (input->kind == CEDUO_INPUT_WORDS)
         return f->choices->names[input->words[k]];
     const char *sign = input->kind == CEDUO_INPUT_NORMAL ? k == 0 ? " (mean - 3 sd)" : " (mean + 3 sd)" : "";
+    /* untaken: table */
     return ceduo_asprintf(v, "%s%s%s%s", ROUNDTRIP(k == 0 ? input->lo : input->hi), f->unit[0] ? " " : "", f->unit, sign);
 }
 
@@ -532,7 +533,7 @@ static const char *describe_status(enum ceduo_status status)
     switch (status) {
     case CEDUO_RELEASE_OFF_SLOPE:
         return _("the release lies outside the slope");
-    case CEDUO_RELEASE_BELOW:
+    case CEDUO_RELEASE_BELOW: /* untaken: table */
         return _("the release lies below the ground");
     case CEDUO_CONTROL_OFF_SLOPE:
         return _("a control lies outside the slope");
@@ -542,7 +543,7 @@ static const char *describe_status(enum ceduo_status status)
         return _("a belt overlaps another, ends before it begins, or lies outside the slope");
     case CEDUO_BAD_ROCK:
         return _("the rock has no such size");
-    default:
+    default: /* untaken: table */
         return _("a number is outside its range");
     }
 }

@@ -207,6 +207,14 @@ def test_set_names_the_change():
         expect_equal(done.status, USAGE, done)
         expect(done.err.startswith("--set:1:18: the scene is valid without this change, but not with it:\n"), done)
         expect_in("controls[0].x_m: 60 lies outside the slope, which goes from 0 to 50 m", done.err)
+        names = [2 * chr(ord("a") + i) for i in range(23)]  # more kinds of problems than the list has lines
+        rows = [{"path": f"controls[{n}].x_m", "lo": 30, "hi": 60} for n in names]
+        path = f.write("s.yaml", scene(controls=[{"x_m": 50}], uncertainty=[*rows, {"path": "release.x_m", "lo": 1, "hi": 40}]))
+        good("--check", path)
+        done = ceduo("--check", "-s", f"controls=[{', '.join(f'{{x_m: {50 + i}, name: {n}}}' for i, n in enumerate(names))}]", path)
+        expect(done.err.startswith("--set:1:10: the scene is valid without this change, but not with it:\n"), done)
+        expect_in("40 m and 30 m of controls[aa].x_m cannot be computed together", done.err)
+        expect_in("\n3 more problems\n", done.err)
 
 
 def test_set_place():
