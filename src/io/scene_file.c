@@ -31,7 +31,8 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
                                 .raw = file->raw,
                                 .root = file->root,
                                 .kept_count = file->kept_count,
-                                .kept = file->kept};
+                                .kept = file->kept,
+                                .changed = file->changed};
     if (!ceduo_validate(&v))
         return false;
     file->scene = v.draft.scene;
@@ -136,6 +137,7 @@ static bool make_scene(struct scene_file *file, const struct source *source, con
     size_t before = problems->met;
     file->path = source->name;
     file->name = file->name ? file->name : file->path;
+    file->changed = n > 0;
     file->raw = file->root = ceduo_yaml_read(&file->arena, source, problems);
     if (!file->root)
         return false;

@@ -23,6 +23,7 @@ struct scene_file {
     size_t kept_count;
     const size_t *kept;  /* indices in the file of the options kept by --option; NULL: all */
     bool ground_assumed; /* the file gives no ground: talus is assumed */
+    bool changed;        /* by --set: a range of an item that is no longer there is no mistake */
 };
 
 /* Read a scene ("-": standard input; a name without a file: a shipped scene), apply `sets` (PATH=VALUE, from left to right) and

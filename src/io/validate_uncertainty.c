@@ -201,8 +201,21 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
     return words && n >= 2;
 }
 
-/* Make the input of a row, with its places. Return false on error, or if the scene has no such place, e.g. after the stand was
- * exchanged. */
+/* Warn that a row of an unchanged scene names nothing: a misspelt name, or an item that is gone. */
+static void warn_missing(struct validator *v, const struct row *row)
+{
+    const char *file_path;
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(v->root, ceduo_asprintf(v, "%s.path", row->path), &file_path, &used);
+    struct problem_place place = ceduo_node_place(node, file_path);
+    place.unusual = true;
+    if (v->warns && !v->file->changed)
+        ceduo_problem_at(v->problems, place,
+                         _("'%s' names nothing in this scene, so its range is not used; check its spelling"),
+                         row->uncertainty.path);
+}
+
+/* Make the input of a row, with its places. Return false on error, or if the scene has no such place. */
 static bool make_input(struct validator *v, const struct row *row, struct places *places, struct ceduo_input *input)
 {
     const struct uncertainty_row *d = &row->uncertainty;
@@ -221,8 +234,10 @@ static bool make_input(struct validator *v, const struct row *row, struct places
             _("'%s' affects no result; name a number or a word of the rock, its release, the slope, a stand or the law"),
             d->path);
     find_places(places, path);
-    if (places->n == 0)
+    if (places->n == 0) {
+        warn_missing(v, row);
         return false;
+    }
     /* exactly one of three forms is allowed */
     int range = !isnan(d->lo) + !isnan(d->hi), normal = !isnan(d->mean) + !isnan(d->sd);
     bool words = d->one_of != NULL, choice = field->type == FIELD_CHOICE;

@@ -733,7 +733,26 @@ def test_what_is_not_there():
     belts = [{"from_m": 0, "to_m": 30, "stand": wood()}, {"from_m": 30, "to_m": 40, "stand": {"system": "bare"}}]
     inputs = answer(measured(forest=belts, uncertainty=[some]))["figures"][0]["inputs"]
     expect_equal([(i["path"], i["places"]) for i in inputs], [(some["path"], 1)])
-    expect_equal(ceduo("--check", "-s", "forest=[]", "paper-site").status, DONE)
+    expect_equal(ceduo("--check", "-s", "forest=[]", "paper-site").err, "", "an exchange is no mistake")
+
+
+def test_misspelt():
+    """A range that names nothing in the file has a warning, also with -n; not with --set, which may have exchanged items"""
+    with Folder() as f:
+        rows = [{"path": "controls[raod].x_m", "lo": 79, "hi": 81}, {"path": "forest[1].to_m", "lo": 39, "hi": 41}, DENSITY]
+        path = f.write("s.yaml", scene(controls=[{"x_m": 80, "name": "road"}], uncertainty=rows))
+        for arguments in (["--check"], ["--batch", "-n", "10"]):
+            done = ceduo(*arguments, path)
+            expect_equal(done.status, DONE, done)
+            expect_in("s.yaml:", done.err)
+            expect_in("uncertainty[0].path: 'controls[raod].x_m' names nothing in this scene, so its range is not used", done.err)
+            expect_in("uncertainty[1].path: 'forest[1].to_m' names nothing in this scene", done.err)
+            expect("uncertainty[2]" not in done.err, done)
+        expect_equal(ceduo("--check", "-s", "title=changed", path).err, "")
+        trees = f.write("stand.yaml", {"ceduo": "stand/1", **wood(), "uncertainty": [{"path": "trees[7].per_ha", "lo": 1, "hi": 2}]})
+        done = ceduo("--check", f.write("t.yaml", scene(forest=[{"from_m": 10, "to_m": 30, "stand": str(trees)}])))
+        expect_in("stand.yaml:", done.err)
+        expect_in("uncertainty[0].path: 'trees[7].per_ha' names nothing in this scene", done.err)
 
 
 REFUSED = {
