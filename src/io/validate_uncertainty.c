@@ -209,7 +209,7 @@ static void warn_missing(struct validator *v, const struct row *row)
     const struct node *node = ceduo_resolve_walk(v->root, ceduo_asprintf(v, "%s.path", row->path), &file_path, &used);
     struct problem_place place = ceduo_node_place(node, file_path);
     place.unusual = true;
-    if (v->warns && !v->file->changed)
+    if (!v->file->changed)
         ceduo_problem_at(v->problems, place,
                          _("'%s' names nothing in this scene, so its range is not used; check its spelling"),
                          row->uncertainty.path);
