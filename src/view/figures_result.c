@@ -946,7 +946,7 @@ static const struct ceduo_figure find_rows[] = {
     {"monotone", "", "true if the goal only rises or only falls over the range", .from = get_found, MEMBER(found, monotone)},
     {"evaluations", "", "values computed", .from = get_found, MEMBER(found, evaluations)},
     {"rocks", "", "rocks flown for each", .from = get_search, MEMBER(search, rocks)},
-    {"over", "", "today, or rotation: over one whole rotation, where the parameter is one of growth or cutting",
+    {"over", "", "today, or rotation: over the years ahead (--years, a worst- goal, a parameter of growth or cutting)",
      .from = get_search, .value = search_period},
     {"yield", "", "stem wood that the option yields at this value", .from = get_yield_report, .table = found_yield,
      .null = NO_GROWTH},

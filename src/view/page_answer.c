@@ -190,6 +190,15 @@ static void append_sampling(struct text *text, const struct ceduo_report *report
                           error.bytes);
 }
 
+/* True if a control before the last has an answer. */
+static bool judges_others(const struct ceduo_result *r)
+{
+    bool any = false;
+    for (size_t k = 0; k < r->scene->controls_count; k++)
+        any |= k != r->last_control && !isnan(r->scene->controls[k].accepted);
+    return any;
+}
+
 /* Append the uncertainty of the best option, over the rotation if known. */
 static void append_uncertainty(struct text *text, const struct ceduo_report *report)
 {
@@ -209,7 +218,13 @@ static void append_uncertainty(struct text *text, const struct ceduo_report *rep
         return;
     }
     if (r->scene->options_count == 1 && r->wooded && !isnan(m.p5)) {
-        ceduo_text_append_joined(text, " ", _("Uncertain inputs: %s."), SPAN(m, m.p5, m.p95));
+        LOCAL_TEXT(place);
+        ceduo_words_place(&place, last_control(r));
+        if (judges_others(r))
+            ceduo_text_append_joined(text, " ", _("Uncertain inputs: %s, considered for %s alone."), SPAN(m, m.p5, m.p95),
+                                     ceduo_text_string(&place));
+        else
+            ceduo_text_append_joined(text, " ", _("Uncertain inputs: %s."), SPAN(m, m.p5, m.p95));
     }
     if (uncertainty->answer->orders_count > 0) {
         ceduo_text_append_char(text, ' ');
