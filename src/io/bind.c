@@ -204,14 +204,19 @@ static bool check_range(struct binder *b, const struct field *f, const struct no
     return true;
 }
 
-static void warn_unusual(struct binder *b, const struct field *f, const struct node *node, double value)
+void ceduo_warn_unusual(struct problems *problems, struct problem_place place, const struct field *f, double value)
 {
     const char *gap = f->unit[0] ? " " : "", *unit = f->unit;
-    struct problem_place place = ceduo_node_place(node, path_here(b));
     place.unusual = true;
-    if (b->to->warns && !ceduo_schema_is_usual(f, value))
-        ceduo_problem_at(b->to->problems, place, _("%s%s%s is unusual (usual: %s to %s%s%s); check the number and its unit"),
+    if (!ceduo_schema_is_usual(f, value))
+        ceduo_problem_at(problems, place, _("%s%s%s is unusual (usual: %s to %s%s%s); check the number and its unit"),
                          ROUNDTRIP(value), gap, unit, ROUNDTRIP(f->shown.usual_min), ROUNDTRIP(f->shown.usual_max), gap, unit);
+}
+
+static void warn_unusual(struct binder *b, const struct field *f, const struct node *node, double value)
+{
+    if (b->to->warns)
+        ceduo_warn_unusual(b->to->problems, ceduo_node_place(node, path_here(b)), f, value);
 }
 
 static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)

@@ -63,6 +63,9 @@ struct binding {
 /* Fill `item`, which holds its defaults, from a mapping. An invalid number keeps its default. */
 void ceduo_bind(const struct binding *to, const struct object *object, const struct node *node, void *item);
 
+/* Warn about a number, in the unit of its field, outside the usual range. */
+void ceduo_warn_unusual(struct problems *problems, struct problem_place place, const struct field *f, double value);
+
 /* Append the message that an object has no such key, with the nearest key or all keys. Return the nearest key, or NULL. */
 const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *message);
 

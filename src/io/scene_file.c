@@ -42,6 +42,15 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     return good;
 }
 
+unsigned ceduo_scene_list(const char *path)
+{
+    static const char *const lists[] = {"controls", "release", "slope", "forest", "options"};
+    for (unsigned i = 0; i < sizeof lists / sizeof lists[0]; i++)
+        if (strncmp(path, lists[i], strlen(lists[i])) == 0)
+            return 1u << (i < 4 ? i : 3); /* options contain forests */
+    return 0;
+}
+
 /* Find the '=' after the path. A '=' in brackets belongs to a name. */
 static const char *find_equals(const char *set)
 {
@@ -137,16 +146,18 @@ static bool make_scene(struct scene_file *file, const struct source *source, con
     size_t before = problems->met;
     file->path = source->name;
     file->name = file->name ? file->name : file->path;
-    file->changed = n > 0;
     file->raw = file->root = ceduo_yaml_read(&file->arena, source, problems);
     if (!file->root)
         return false;
     if (file->root->kind != NODE_MAP)
         return ceduo_problem_at(problems, ceduo_node_place(file->root, NULL),
                                 _("a scene is a mapping that begins with 'ceduo: scene/1'"));
-    for (size_t i = 0; i < n; i++)
+    file->changed = 0;
+    for (size_t i = 0; i < n; i++) {
         if (!apply_change(file, name_change(sets, i), problems))
             return false;
+        file->changed |= ceduo_scene_list(sets->items[i]);
+    }
     const struct node *root = ceduo_resolve_scene(&file->arena, file->root, problems);
     if (!root)
         return false;

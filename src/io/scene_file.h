@@ -23,7 +23,7 @@ struct scene_file {
     size_t kept_count;
     const size_t *kept;  /* indices in the file of the options kept by --option; NULL: all */
     bool ground_assumed; /* the file gives no ground: talus is assumed */
-    bool changed;        /* by --set: a range of an item that is no longer there is no mistake */
+    unsigned changed;    /* lists that --set changed, by ceduo_scene_list(): they may have lost items */
 };
 
 /* Read a scene ("-": standard input; a name without a file: a shipped scene), apply `sets` (PATH=VALUE, from left to right) and
@@ -39,6 +39,9 @@ bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struc
 /* Read a scene from text in memory. */
 bool ceduo_scene_load_text(struct scene_file *file, const char *name, const char *text, struct problems *problems);
 void ceduo_scene_release(struct scene_file *file);
+
+/* Return the bit of the list or slope in which a path begins; 0: another part of the scene. */
+unsigned ceduo_scene_list(const char *path);
 
 /* Set `file->scene` from `file->root`. */
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems);

@@ -155,6 +155,15 @@ static const struct field *find_field(struct validator *v, const char *path)
 
 /* ---- ranges ---- */
 
+/* Return the place of a key of a row. */
+static struct problem_place find_place(struct validator *v, const struct row *row, const char *key)
+{
+    const char *path;
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(v->root, ceduo_asprintf(v, "%s.%s", row->path, key), &path, &used);
+    return ceduo_node_place(node, path);
+}
+
 static bool read_range(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
 {
     double mean = row->uncertainty.mean, sd = row->uncertainty.sd;
@@ -174,6 +183,8 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
         if (!ceduo_schema_in_range(field, ends[i]))
             return ceduo_reject(v, row->path, keys[i], _("%s is outside the range of %s: %s"), ROUNDTRIP(ends[i]), field->key,
                                 ceduo_describe_range(v, field));
+    for (int i = 0; i < (normal ? 1 : 2); i++)
+        ceduo_warn_unusual(v->problems, find_place(v, row, keys[i]), field, normal ? mean : ends[i]);
     return true;
 }
 
@@ -201,15 +212,12 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
     return words && n >= 2;
 }
 
-/* Warn that a row of an unchanged scene names nothing: a misspelt name, or an item that is gone. */
-static void warn_missing(struct validator *v, const struct row *row)
+/* Warn that a path names nothing: it is misspelt, or the file has lost the item. --set may have exchanged it. */
+static void warn_missing(struct validator *v, const struct row *row, const char *path)
 {
-    const char *file_path;
-    size_t used;
-    const struct node *node = ceduo_resolve_walk(v->root, ceduo_asprintf(v, "%s.path", row->path), &file_path, &used);
-    struct problem_place place = ceduo_node_place(node, file_path);
+    struct problem_place place = find_place(v, row, "path");
     place.unusual = true;
-    if (!v->file->changed)
+    if (!(v->file->changed & ceduo_scene_list(path)))
         ceduo_problem_at(v->problems, place,
                          _("'%s' names nothing in this scene, so its range is not used; check its spelling"),
                          row->uncertainty.path);
@@ -235,7 +243,7 @@ static bool make_input(struct validator *v, const struct row *row, struct places
             d->path);
     find_places(places, path);
     if (places->n == 0) {
-        warn_missing(v, row);
+        warn_missing(v, row, path);
         return false;
     }
     /* exactly one of three forms is allowed */

@@ -16,8 +16,25 @@ bool ceduo_page_is_unassessable(const struct ceduo_result *r)
     return r->scene->controls_count == 0 || ceduo_too_few_arrivals(&r->bare.arrivals[r->last_control]);
 }
 
-void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
+/* Append the question about one option and the years that are judged. */
+static void ask_about_years(struct text *text, const char *place, struct ceduo_window w)
 {
+    if (w.kind == CEDUO_WINDOW_CONSTANT)
+        ceduo_text_format(text, _("Does the forest protect %s?"), place);
+    else if (w.kind == CEDUO_WINDOW_AHEAD || (w.first == 1 && w.step == 1))
+        ceduo_text_format(text,
+                          ngettext("Does the forest protect %s over the next %u year?",
+                                   "Does the forest protect %s over the next %u years?", w.last),
+                          place, w.last);
+    else if (w.first == w.last)
+        ceduo_text_format(text, _("Does the forest protect %s in year %u?"), place, w.first);
+    else
+        ceduo_text_format(text, _("Does the forest protect %s in the years %u to %u?"), place, w.first, w.last);
+}
+
+void ceduo_page_question(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
     if (r->scene->controls_count == 0)
         return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_QUESTION);
@@ -33,15 +50,8 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
         ceduo_text_format(&place, _("the place at %s m (limit %s kJ)"), x, withstands);
     else
         ceduo_text_format(&place, _("the place at %s m"), x);
-    struct ceduo_window window = ceduo_scene_window(r->scene);
-    unsigned years = window.kind == CEDUO_WINDOW_AHEAD ? window.last : 0;
-    if (n == 1 && accepted && years > 0)
-        ceduo_text_format(text,
-                          ngettext("Does the forest protect %s over the next %u year?",
-                                   "Does the forest protect %s over the next %u years?", years),
-                          place.bytes, years);
-    else if (n == 1 && accepted)
-        ceduo_text_format(text, _("Does the forest protect %s?"), place.bytes);
+    if (n == 1 && accepted)
+        ask_about_years(text, place.bytes, report->verdict ? report->verdict->choices[0].window : ceduo_scene_window(r->scene));
     else if (n == 1)
         ceduo_text_format(text, _("How many rocks does the forest keep from %s?"), place.bytes);
     else if (accepted)

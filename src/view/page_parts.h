@@ -15,7 +15,7 @@ static inline const struct ceduo_control *last_control(const struct ceduo_result
 
 /* First part of a page (page_answer.c): question, answer, its certainty, and its development over the years. Nothing without
  * a control, or if it cannot be judged. */
-void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *result);
+void ceduo_page_question(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_certainty(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_over_time(struct ceduo_page *page, const struct ceduo_report *report);

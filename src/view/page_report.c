@@ -368,7 +368,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_report *repo
     bool controls = scene->controls_count > 0, several = scene->options_count > 1;
     ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     add_head(page, &scene->page);
-    ceduo_page_question(page, report->result);
+    ceduo_page_question(page, report);
     add_headline(page, report);
     ceduo_page_answer(page, report);
     add_uncertainty(page, report);

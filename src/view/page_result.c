@@ -615,9 +615,11 @@ static void add_full_page(struct ceduo_page *page, const struct ceduo_report *re
     const struct ceduo_scene *scene = report->result->scene;
     ceduo_page_para(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_facts(page, report);
-    ceduo_page_question(page, report->result);
+    ceduo_page_question(page, report);
     ceduo_page_answer(page, report);
     ceduo_page_certainty(page, report);
+    if (report->uncertainty && report->uncertainty->answer)
+        ceduo_uncertainty_warn_outside(report->uncertainty, ceduo_page_warn, page);
     ceduo_page_over_time(page, report);
     ceduo_page_fence_answer(page, report, false);
     if (scene->options_count > 1) /* shared by all options */

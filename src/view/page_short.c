@@ -123,7 +123,7 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     size_t n = r->scene->options_count;
     bool nothing = ceduo_page_is_unassessable(r);
     add_title(page, report);
-    ceduo_page_question(page, r);
+    ceduo_page_question(page, report);
     if (n > 1 && !nothing) {
         ceduo_page_shares(page, report, true);
         ceduo_page_options(page, report, CEDUO_OPTIONS_SHORT, r->last_control, SIZE_MAX, 0, n);

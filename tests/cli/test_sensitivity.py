@@ -736,8 +736,22 @@ def test_what_is_not_there():
     expect_equal(ceduo("--check", "-s", "forest=[]", "paper-site").err, "", "an exchange is no mistake")
 
 
+def test_unusual_ranges():
+    """Ends of a range and a mean outside the usual range, such as density in t/m3, have a warning, whatever is computed"""
+    rows = [{"path": "rock.density_kg_m3", "lo": 2.4, "hi": 2700}, {"path": "release.height_m", "mean": 3, "sd": 1}]
+    with Folder() as f:
+        path = f.write("s.yaml", scene(uncertainty=rows))
+        unusual = "uncertainty[0].lo: 2.4 kg/m3 is unusual (usual: 1000 to 5000 kg/m3); check the number and its unit"
+        for arguments in (["--check"], ["-b", "-n", "10"], ["--sensitivity=20", "-n", "10", "-f", "json"]):
+            done = ceduo(*arguments, path)
+            expect_equal((done.status, done.err.count("is unusual")), (DONE, 1), done)
+            expect_in(unusual, done.err)
+        rows[1]["mean"] = 3000
+        expect_in("uncertainty[1].mean: 3000 m is unusual", ceduo("--check", f.write("s.yaml", scene(uncertainty=rows))).err)
+
+
 def test_misspelt():
-    """A range that names nothing in the file has a warning, also with -n; not with --set, which may have exchanged items"""
+    """A range that names nothing in the file has a warning; not after a change that may have exchanged the item"""
     with Folder() as f:
         rows = [{"path": "controls[raod].x_m", "lo": 79, "hi": 81}, {"path": "forest[1].to_m", "lo": 39, "hi": 41}, DENSITY]
         path = f.write("s.yaml", scene(controls=[{"x_m": 80, "name": "road"}], uncertainty=rows))
@@ -748,7 +762,10 @@ def test_misspelt():
             expect_in("uncertainty[0].path: 'controls[raod].x_m' names nothing in this scene, so its range is not used", done.err)
             expect_in("uncertainty[1].path: 'forest[1].to_m' names nothing in this scene", done.err)
             expect("uncertainty[2]" not in done.err, done)
-        expect_equal(ceduo("--check", "-s", "title=changed", path).err, "")
+        for arguments in (["-s", "title=changed"], ["--seed", "7"], ["--each", f.write("rows.csv", "rock.density_kg_m3\n2500\n2600\n")]):
+            expect_equal(ceduo("--check", *arguments, path).err.count("names nothing"), 2, arguments)
+        for change, n in (("controls[0].x_m=70", 1), ("forest=[]", 1), ("options=[{name: a}]", 1), ("slope.name=a", 2)):
+            expect_equal(ceduo("--check", "-s", change, path).err.count("names nothing"), n, change)
         trees = f.write("stand.yaml", {"ceduo": "stand/1", **wood(), "uncertainty": [{"path": "trees[7].per_ha", "lo": 1, "hi": 2}]})
         done = ceduo("--check", f.write("t.yaml", scene(forest=[{"from_m": 10, "to_m": 30, "stand": str(trees)}])))
         expect_in("stand.yaml:", done.err)
@@ -783,8 +800,10 @@ def test_outside():
         return " ".join(ceduo("-n", "20", *args).out.split())
 
     changes = ("--set", "forest[0].stand.shoots[0].per_ha=20000")
-    for args in (("-b",), ("--sensitivity=16",)):
+    for args in (("-b",), ("-b", "--details"), ("--sensitivity=16",)):
         page = run_words(*args, *changes, "paper-site")
+        if args != ("-b",):  # the short page may lack space
+            expect_in("is 20000, outside its range", page, args)
         expect("outside its range" not in run_words(*args, "--set", "forest[0].stand.shoots[0].per_ha=9575", "paper-site"), args)
     expect(re.search(r"per hectare, [^.]* is 20000, outside its range 7077.9575; the range is used\.", page), page)
     page = run_words("-b", "--set", "simulation.law=arm", "--set", "uncertainty=[{path: simulation.law, one_of: [lumped, crsp]}]", "paper-site")

@@ -79,6 +79,16 @@ def test_verdict_of_the_window():
     expect(re.search(r" ✘ NO: in \d+ of 25 years more than 50 of 1000 rocks exceed 150 kJ", run_text(*cut)), run_text(*cut))
 
 
+def test_question_names_the_years():
+    """The question is about the years that are judged: typed ones, those of the scene, or the years ahead"""
+    arguments = ["-n", 100, "-s", "uncertainty=none", "--option", "simple coppice", "rotation"]
+    for more, words in (([], "over the next 25 years?"), (["--years=1:7"], "over the next 7 years?"),
+                        (["--years=23:24"], "in the years 23 to 24?"), (["--years=0:20:5"], "in the years 0 to 20?"),
+                        (["--years=9:9"], "in year 9?"), (["-s", "years={first: 23, last: 24}"], "in the years 23 to 24?")):
+        for details in ([], ["--details"]):
+            expect_in(words, " ".join(run_text(*more, *details, *arguments).split()), more)
+
+
 def test_today_alone():
     """Without growth or cuts the window is only today, and the page reports it"""
     answer = run_json("-n", 300, "vaujany")
