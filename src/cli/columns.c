@@ -72,9 +72,9 @@ static enum exit_status report_unknown(const struct columns *c, const char *name
 static enum exit_status choose_listed(struct columns *c, const struct named_column *sorted)
 {
     struct arena *arena = &c->each->arena;
-    size_t length;
-    for (const char *word = c->each->given->columns; *word; word += length + (word[length] == ',')) {
-        length = strcspn(word, ",");
+    const char *word = c->each->given->columns;
+    do { /* an empty list names no column */
+        size_t length = strcspn(word, ",");
         struct named_column wanted = {ceduo_arena_copy(arena, word, length), 0};
         const char *name = wanted.name, *equals = strchr(name, '=');
         const struct named_column *found = bsearch(&wanted, sorted, c->count, sizeof *sorted, compare_names);
@@ -88,7 +88,8 @@ static enum exit_status choose_listed(struct columns *c, const struct named_colu
         if (!name[0])
             return ceduo_usage_error("columns", _("'=%s' has no name; write NAME=%s"), wanted.name, wanted.name);
         choose(c, found->column, name);
-    }
+        word += length + (word[length] == ',');
+    } while (*word);
     return EXIT_DONE;
 }
 

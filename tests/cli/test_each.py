@@ -137,7 +137,7 @@ def test_renamed_columns():
         valley(f, "name,slope\na,100.csv\n")
         expect_equal(run(f, "-f", "csv", "--columns", "place=x_m,x_m,id=row.name").out, "place,x_m,id\n40,40,a\n")
         for columns, words in (("x_m,x_m", "two columns are called 'x_m'"), ("a=x_m,a=option", "two columns are called 'a'"),
-                               ("=x_m", "'=x_m' has no name"), ("a=x", "no column 'x'")):
+                               ("=x_m", "'=x_m' has no name"), ("a=x", "no column 'x'"), ("", "no column ''")):
             r = run(f, "-f", "csv", "--columns", columns)
             expect_equal((r.status, r.out), (USAGE, ""), str(r))
             expect_in(words, r.err)
