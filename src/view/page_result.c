@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/utf8.h"
 #include "core/runs/assess.h"
 #include "core/runs/result.h"
 #include "core/runs/run.h"
@@ -118,8 +119,13 @@ void ceduo_page_arrivals(struct ceduo_page *page, const struct ceduo_subject *s,
     add_figure(page, ceduo_measure_arriving(wooded), ceduo_measure_arriving(bare));
     if (!isnan(s->place->accepted) && !nothing)
         add_figure(page, ceduo_measure_exceeding(s->place, wooded), ceduo_measure_exceeding(s->place, bare));
-    if (!full && !nothing && wooded && !isnan(s->today.p5) && page->width < CEDUO_PAGE_WIDTH)
-        add_texts_row(page, (const char *const[3][2]){{"", _("  90 % range")}, {PLAUSIBLE_RANGE(s->today), ""}, {"", ""}});
+    if (!full && !nothing && wooded && !isnan(s->today.p5) && page->width < CEDUO_PAGE_WIDTH) {
+        const char *range = PLAUSIBLE_RANGE(s->today);
+        LOCAL_TEXT(label);
+        bool fits = ceduo_utf8_width(range) <= (size_t)width; /* 331–1000 does not: it stands in the place of its name */
+        ceduo_text_format(&label, fits ? "%s" : "90 %% %s", fits ? _("  90 % range") : range);
+        add_texts_row(page, (const char *const[3][2]){{"", ceduo_text_string(&label)}, {fits ? range : "", ""}, {"", ""}});
+    }
     if (blocks && !nothing) /* with block sizes the return period is the relevant figure */
         add_texts_row(page, (const char *const[3][2]){
                                 {_("return period of such a rock, years"), _("years apart")},
@@ -209,7 +215,9 @@ void ceduo_page_tests(struct ceduo_page *page, const struct ceduo_subject *s, in
     if (lines >= CEDUO_LINES_SHORT)
         add_index(page, _("energy taken by stems (index), kJ"), _("taken kJ"), SIG(index->dissipated * J_TO_KJ, 3));
     add_index(page, _("energy left (index), kJ"), _("left kJ"),
-              index->exhausted ? _("none") : SIG(index->residual * J_TO_KJ, 3));
+              !index->exhausted                ? SIG(index->residual * J_TO_KJ, 3)
+              : page->width < CEDUO_PAGE_WIDTH ? "0"
+                                               : _("none"));
     if (!isnan(index->measured) && lines >= CEDUO_LINES_SHORT)
         add_index(page, _("energy measured on one rock, kJ"), _("measured kJ"), SIG(index->measured * J_TO_KJ, 3));
 }

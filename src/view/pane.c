@@ -14,6 +14,12 @@
 #define HEIGHT_ALL    24 /* … and for all figures */
 #define HEIGHT_ORDERS 30 /* min lines for the order of all options */
 
+/* True if the uncertainty of the figures is known. */
+static bool has_answer(const struct ceduo_pane *pane)
+{
+    return pane->report->uncertainty && pane->report->uncertainty->answer;
+}
+
 /* ---- rock ---- */
 
 static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
@@ -64,8 +70,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_para_role(page, CEDUO_ROLE_DIM, "%s", _("signs: today, worst year"));
     ceduo_page_para_role(page, CEDUO_ROLE_DIM, pane->report->busy ? _("%llu rocks so far") : _("finished, %llu rocks"),
                          (unsigned long long)ceduo_rocks_released(s.wooded ? s.wooded : s.bare));
-    bool uncertainty =
-        pane->height >= HEIGHT_ALL && !nothing && pane->report->uncertainty && pane->report->uncertainty->answer && !pane->year;
+    bool uncertainty = pane->height >= HEIGHT_ALL && !nothing && has_answer(pane) && !pane->year;
     for (size_t i = 0; i < 3 && uncertainty; i++) { /* causes of a change of light in plausible cases */
         LOCAL_TEXT(causes);
         if (ceduo_uncertainty_causes(&causes, pane->report->uncertainty, pane->option, ceduo_uncertainty_lights[i]))
@@ -75,6 +80,8 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     const struct ceduo_page_block *last = page->last;
     size_t warnings = 0;
     ceduo_words_warn_no_answer(r, ceduo_page_warn, page);
+    if (has_answer(pane))
+        ceduo_uncertainty_warn_outside(pane->report->uncertainty, ceduo_page_warn, page);
     ceduo_page_stand_warnings(page, r, pane->option);
     ceduo_words_run_warnings(r, &pane->report->remarks, ceduo_page_warn, page);
     ceduo_page_stand_rules(page, r, pane->option, true);
@@ -100,6 +107,7 @@ void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pa
     const struct ceduo_uncertainty_report *r = pane->report->uncertainty;
     if (!r || !r->answer || isnan(ceduo_uncertainty_main(r, pane->option)->fit.p5))
         return;
+    ceduo_uncertainty_warn_outside(r, ceduo_page_warn, page);
     ceduo_uncertainty_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, ceduo_uncertainty_main(r, pane->option), 1);
     for (size_t i = 0; i < r->answer->orders_count; i++)
         if (pane->height >= HEIGHT_ORDERS || r->answer->orders[i].better == pane->option ||
@@ -114,8 +122,7 @@ void ceduo_pane_uncertainty(struct ceduo_page *page, const struct ceduo_pane *pa
 /* True if the 90 % range of the mean over the years is known; otherwise that of today is shown. */
 static bool has_rotation(const struct ceduo_pane *pane)
 {
-    return pane->report->uncertainty && pane->report->uncertainty->answer && pane->report->uncertainty->answer->rotation &&
-           pane->report->verdict->wooded;
+    return has_answer(pane) && pane->report->uncertainty->answer->rotation && pane->report->verdict->wooded;
 }
 
 void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
@@ -134,6 +141,8 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
         if (!has_rotation(pane)) /* otherwise the energy law is one of the uncertain inputs */
             ceduo_words_rank_reversals(r, v, ceduo_page_note, page);
     }
+    if (has_answer(pane))
+        ceduo_uncertainty_warn_outside(pane->report->uncertainty, ceduo_page_note, page);
     ceduo_words_windows(r->scene, ceduo_page_note, page);
     ceduo_words_thin_stems(r, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
