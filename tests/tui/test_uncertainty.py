@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from play import CUTS, WOOD, Place  # noqa: E402
+from play import CUTS, WOOD, Place, play  # noqa: E402
 from harness import ceduo, expect, expect_equal, expect_in, run_all  # noqa: E402
 
 UNCERTAINTY = """
@@ -51,6 +51,30 @@ def test_so_far():
                 expect(re.search(r" [✔✘?] [A-Z ]+ so far: .* uncertainty \d+ %$", screen.lines[1]), "the answer", screen)
         for screen in place.play("key 7\ndump\nwait idle\ndump", "sure.yaml"):
             expect("so far" not in screen.lines[1], "nothing is computed", screen)
+
+
+def test_outside():
+    """A value edited to one outside its range has a warning in view 7, in the column, and in the comparison"""
+    with Place() as place:
+        place.write("unsure.yaml", NO_LAW + UNCERTAINTY)
+        place.write("options.yaml", CUTS.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
+                    + UNCERTAINTY.replace("forest[0]", "options[*].forest[0]"))
+        edit = "key 7\nwait idle\nkey {0}\ndump\nkey 3\nfind release.vx_m_s\nset 9\nkey 7\nwait idle\nkey {0}\ndump"
+        for scene, view in (("unsure.yaml", 7), ("unsure.yaml", 1), ("options.yaml", 5)):
+            before, after = place.play("resize 120 45\n" + edit.format(view), scene)
+            expect("outside its range" not in before.body, before)
+            lines = [line.replace("!", " ").split("│") for line in after.lines]
+            said = " ".join(" ".join([line[0] for line in lines] + [line[-1] for line in lines]).split())
+            expect(re.search(r"is 9, outside its range 2\.9.3\.1; the range is used", said), "the warning", said, after)
+
+
+def test_narrow():
+    """The column at 80 columns has whole ranges, and both signs of a test, in Italian too"""
+    with Place() as place:
+        lines = place.play("resize 80 24\nkey 7\nwait idle\nkey 1\ndump", "quarry")[0].lines
+        expect(any(re.search(r"│ 90 % \d+–1000\s*$", line) for line in lines), *lines)
+        lines = play(place.path, "resize 80 24\nwait idle\ndump", "--language", "it", "blocks-above-the-road")[0].lines
+        expect(any(re.search(r"ADC m .*< 30 ✔✘", line) for line in lines), *lines)
 
 
 def test_view():
