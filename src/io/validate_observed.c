@@ -155,12 +155,39 @@ static bool split_only(const struct entry *e, struct table *t)
     return true;
 }
 
-/* Find the head and the columns. Reports an unknown column of the values or of `only` and returns false. */
+/* Units that a column of observations may have by mistake. Metres count in brackets only: "speed at 60 m" names a place. */
+#define OTHER_UNITS                                                                                                                 \
+    "mm|cm|dm|km|in|inch|inches|ft|feet|yd|mi|mile|miles|miglia|piedi|mm/s|cm/s|m/s|m s-1|km/s|m/min|km/h|km h-1|km·h-1|"          \
+    "km h⁻¹|km·h⁻¹|kph|kmph|km/hr|km/ora|mph|mi/h|ft/s|fps|kn|kt|knots|nodi|J|joule|joules|kJ|MJ|GJ|N m|kN m|Wh|kWh|kcal|%|" \
+    "deg|°"
+#define BRACKET_UNITS "m|kg"
+
+/* True if a head ends with a unit, or has one in brackets, that is not one of `units`. */
+static bool has_other_unit(struct csv_cell head, const char *units)
+{
+    for (size_t i = 0; i < head.n; i++) {
+        const char *p = head.p + i;
+        size_t n = head.n - i;
+        if (i > 0 && !strchr(" _([.,;:/-", p[-1])) /* a unit follows a separator, or is the whole head */
+            continue;
+        bool bracket = i > 0 && strchr("([", p[-1]);
+        for (size_t k = 0; bracket && k < n; k++)
+            n = strchr(")]", p[k]) ? k : n;
+        if (ceduo_csv_matches(p, n, units))
+            return false;
+        if (ceduo_csv_matches(p, n, OTHER_UNITS) || (bracket && ceduo_csv_matches(p, n, BRACKET_UNITS)))
+            return true;
+    }
+    return false;
+}
+
+/* Find the head and the columns. Reports an unknown column of the values or of `only`, or a wrong unit, and returns
+ * false. */
 static bool find_columns(const struct entry *e, struct table *t)
 {
     const struct ceduo_quantity_row *quantity = ceduo_observed_quantity(e->kind);
     struct csv *csv = &t->csv;
-    const struct csv_head heads[COLUMNS] = {[VALUES] = {quantity->column, quantity->also, .units = quantity->unit},
+    const struct csv_head heads[COLUMNS] = {[VALUES] = {quantity->column, quantity->also, .units = quantity->units},
                                             [MAP] = {"y_m", "y|northing|north|nord", .units = "m"},
                                             [NAMED] = {e->values->column, .units = ""},
                                             [ONLY] = {t->only_name, .units = ""}};
@@ -196,7 +223,11 @@ static bool find_columns(const struct entry *e, struct table *t)
     if (t->only_name && t->columns[ONLY] >= CEDUO_CSV_DUPLICATE)
         return ceduo_reject(e->v, e->path, "only", _("the table has no column '%s'; it has: %s"), t->only_name, names);
     t->columns[VALUES] = *column;
-    return true;
+    if (!has_other_unit(csv->heads[*column], quantity->units))
+        return true;
+    csv->source->foreign = false;
+    return ceduo_csv_error(csv, csv->heads[*column], _("this column must be in %s; convert it and name it '%s'"),
+                           quantity->unit, quantity->column);
 }
 
 /* True if the cell in the column of `only` is its word, or an equal number. Reports a stray quote. */

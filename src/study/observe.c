@@ -60,12 +60,14 @@ const struct ceduo_observed_row *ceduo_observed_row(enum ceduo_observed_kind kin
 
 const struct ceduo_quantity_row *ceduo_observed_quantity(enum ceduo_observed_kind kind)
 {
+#define METRES "m|mt|metri|metro|metres|meters|meter"
     static const struct ceduo_quantity_row rows[] = {
-        [CEDUO_QUANTITY_PLACE] = {"m", 1, "x_m", "distance|distanza|progressiva|dist|chainage|entfernung|distanz|x"},
-        [CEDUO_QUANTITY_COUNT] = {"", 1, NULL, NULL},
-        [CEDUO_QUANTITY_SPEED] = {"m/s", 1, "speed_m_s", "speed|velocity|velocit\xc3\xa0"},
-        [CEDUO_QUANTITY_HEIGHT] = {"m", 1, "height_m", "height|altezza|h"},
-        [CEDUO_QUANTITY_ENERGY] = {"kJ", 1000, "energy_kJ", "energy|energia"}};
+        [CEDUO_QUANTITY_PLACE] = {"m", METRES, 1, "x_m", "distance|distanza|progressiva|dist|chainage|entfernung|distanz|x"},
+        [CEDUO_QUANTITY_COUNT] = {"", "", 1, NULL, NULL},
+        [CEDUO_QUANTITY_SPEED] = {"m/s", "m/s|m s-1|m·s-1|m s⁻¹|m·s⁻¹|m/sec", 1, "speed_m_s", "speed|velocity|velocit\xc3\xa0"},
+        [CEDUO_QUANTITY_HEIGHT] = {"m", METRES, 1, "height_m", "height|altezza|h"},
+        [CEDUO_QUANTITY_ENERGY] = {"kJ", "kJ", 1000, "energy_kJ", "energy|energia"}};
+#undef METRES
     return &rows[ceduo_observed_row(kind)->quantity];
 }
 

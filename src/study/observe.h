@@ -12,6 +12,7 @@ struct ceduo_observed_row {
 
 struct ceduo_quantity_row {
     const char *unit;          /* in files and for people; "": a count */
+    const char *units;         /* the same unit in heads of tables, in all its forms, separated by | */
     double scale;              /* SI per unit */
     const char *column, *also; /* head of the column in a table of values; other heads, separated by | */
 };

@@ -216,6 +216,30 @@ def test_tables_of_offices():
     expect_equal(done.out, "t.csv: 2 values in the column Distanza; rows with b = 2; decimal commas; not used: id, nota\n")
 
 
+def test_units_of_tables():
+    """A column in another unit is refused, whether it is the only one, named, or has a row of units; the right unit may be written in many ways"""
+    kinds = {"stops": ({"stops": {"csv": "t.csv"}}, "45", "m", "x_m"), "speed": ({"speed": {"x_m": 60, "csv": "t.csv"}}, "9", "m/s", "speed_m_s"),
+             "height": ({"height": {"x_m": 60, "csv": "t.csv"}}, "2", "m", "height_m"), "energy": ({"energy": {"x_m": 60, "csv": "t.csv"}}, "20", "kJ", "energy_kJ")}
+    wrong = {"stops": ("x (km)", "stops_km", "distance [ft]", "km", "x_cm", "x (m/s)", "x (km"), "height": ("altezza (cm)", "H cm", "height_mm", "h (m s-1)"),
+             "speed": ("speed (km/h)", "speed_km_h", "velocita km h-1", "Speed [KM/H] GPS", "km/h", "v_kmh", "V, mph", "x (m)", "speed (kJ)"),
+             "energy": ("energy (J)", "Energia [MJ]", "E_J", "energy in kNm", "mass (kg)")}
+    right = {"stops": ("x (m)", "x_m", "stops m", "x (metri)", "x", "m", "stopped (tape)", "arrestomm"), "height": ("altezza (m)", "H_m", "h", "height [m] of the middle"),
+             "speed": ("speed (m/s)", "speed m s-1", "v_ms-1", "v_m_s", "speed (m\u00b7s\u207b\u00b9)", "v at 60 m", "film"), "energy": ("energy (kJ)", "E_KJ", "Ekin", "energy at 60 m")}
+    for kind, (observed, value, unit, name) in kinds.items():
+        words = f"t.csv:1:1: this column must be in {unit}; convert it and name it '{name}'"
+        for head in wrong[kind]:
+            refused(words, observed, ("t.csv", f"{head}\n{value}\n".replace("V, mph", '"V, mph"')))
+            refused(words.replace(":1:1", ":1:4"), {kind: {**observed[kind], "column": head}}, ("t.csv", f"id;{head}\na;{value}\n"))
+        for head in right[kind]:
+            accepted(observed, ("t.csv", f"{head}\n{value}\n"))
+            accepted({kind: {**observed[kind], "column": head}}, ("t.csv", f"id;{head}\na;{value}\n"))
+        accepted(observed, ("t.csv", f"id;{right[kind][0]}\na;{value}\n"))
+    refused("t.csv:1:1: this column must be in m;", kinds["stops"][0], ("t.csv", "x\n(km)\n0.045\n"))
+    refused("t.csv:1:4: this column must be in m;", {"height": {"x_m": 60, "csv": "t.csv", "column": "altezza (cm)"}}, ("t.csv", "id;altezza\n;cm\na;45\n"))
+    accepted(kinds["stops"][0], ("t.csv", "id;x\n;m\na;45\n"))
+    accepted(kinds["speed"][0], ("t.csv", "id;speed (m s-1)\na;9\n"))
+
+
 def test_misplaced():
     """Kinds, rows and tables of an impossible form"""
     table = ("stops.csv", TABLE)
