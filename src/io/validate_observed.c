@@ -260,6 +260,49 @@ static void describe_table(const struct entry *e, const struct table *t, const c
     ceduo_add_table_note(e->v, e->path, ceduo_text_string(&line));
 }
 
+/* Heads of columns that count rocks, and heads of columns that count or number rocks. */
+#define COUNTS                                                                                                                 \
+    "count|counts|n rocks|number of rocks|no of rocks|rocks|conteggio|n massi|num massi|numero massi|numero di massi|massi|"   \
+    "n blocchi|numero blocchi|numero di blocchi|freq|frequency|frequenza|anzahl|anzahl steine"
+#define COUNTS_OR_NUMBERS "n|nr|no|num|number|numero|nummer"
+
+/* True if a column has whole numbers that count rocks: not 1 in each row, and not a vague head with 1, 2, 3. */
+static bool counts_rocks(struct csv *csv, size_t column)
+{
+    const struct csv_place begin = csv->next;
+    const struct csv_cell head = csv->heads[column];
+    struct problems *problems = csv->problems;
+    const bool vague = ceduo_csv_matches(head.p, head.n, COUNTS_OR_NUMBERS);
+    bool whole = vague || ceduo_csv_matches(head.p, head.n, COUNTS), single = true, rises = true;
+    size_t rows = 0;
+    double value, last = 0;
+    csv->problems = NULL;
+    while (whole && ceduo_csv_next_row(csv)) {
+        const struct csv_cell cell = ceduo_csv_next_cell(csv, column);
+        if (ceduo_csv_is_empty(cell))
+            continue;
+        whole = ceduo_csv_value(csv, cell, &value) && value >= 0 && value == floor(value);
+        single = single && whole && value == 1;
+        rises = rises && whole && (rows == 0 || value == last + 1);
+        last = value;
+        rows++;
+    }
+    csv->problems = problems;
+    csv->next = begin;
+    return whole && !single && !(vague && rises && rows > 2);
+}
+
+/* Refuse a column that counts rocks: each row is one rock. */
+static bool check_counts(struct csv *csv, const size_t columns[COLUMNS])
+{
+    for (size_t i = 0; i < csv->heads_count; i++)
+        if (i != columns[VALUES] && i != columns[ONLY] && counts_rocks(csv, i))
+            return ceduo_csv_error(csv, csv->heads[i],
+                                   _("this column counts rocks; write one row for each rock, or name it 'id' if it numbers "
+                                     "them"));
+    return true;
+}
+
 static bool read_table(const struct entry *e, const char *path)
 {
     struct validator *v = e->v;
@@ -270,6 +313,8 @@ static bool read_table(const struct entry *e, const char *path)
         return false;
     ceduo_csv_mark_numeric(csv, t.columns[VALUES]);
     ceduo_csv_scan(csv);
+    if (!check_counts(csv, t.columns))
+        return false;
     to->values = ceduo_alloc(v, csv->rows, sizeof *to->values);
     if (!to->values)
         return false;

@@ -240,6 +240,28 @@ def test_units_of_tables():
     accepted(kinds["speed"][0], ("t.csv", "id;speed (m s-1)\na;9\n"))
 
 
+def test_counts_of_rocks():
+    """A column that counts the rocks of a row is refused; one that numbers the rows, or counts one rock in each, is not"""
+    stops = {"stops": {"csv": "t.csv", "of": 20}}
+    words = "this column counts rocks; write one row for each rock, or name it 'id' if it numbers them"
+    table = "distance,{}\n45,{}\n60,{}\n61,{}\n"
+    for head in ("N.", "numero", "number", "Nr", "conteggio", "Numero massi"):
+        refused(f"t.csv:1:10: {words}", stops, ("t.csv", table.format(head, 10, 8, 1)))
+    for head in ("n", "count"):
+        for numbers in ((10, 8, 1), (1, 2, 4), (1, 2, ""), (1, 1, 2), (2, 3, ""), ("1.0", "-", "3")):
+            refused(f"t.csv:1:10: {words}", stops, ("t.csv", table.format(head, *numbers)))
+        for numbers in ((1, 1, 1), ("", "", 1), (1.5, 2, 4), (-1, 3, 4), ("a", 2, 3), (2, "b", 3)):
+            accepted(stops, ("t.csv", table.format(head, *numbers)))
+    for numbers in ((1, 2, 3), (0, 1, 2), (17, 18, 19)):
+        accepted(stops, ("t.csv", table.format("n", *numbers)))
+        refused(words, stops, ("t.csv", table.format("count", *numbers)))
+    accepted(stops, ("t.csv", table.format("id", 10, 8, 1)))
+    accepted({"stops": {"csv": "t.csv", "only": "n=8"}}, ("t.csv", table.format("n", 10, 8, 1)))
+    accepted({"stops": {"csv": "t.csv", "column": "n"}}, ("t.csv", table.format("n", 50, 48, 41)))
+    refused("t.csv:3:1: too few columns", stops, ("t.csv", "distance,n\n45,1\n60\n"))
+    refused(words, {"scars": {"from_m": 20, "to_m": 40, "csv": "t.csv"}}, ("t.csv", "h,n\n1,10\n2,8\n"))
+
+
 def test_misplaced():
     """Kinds, rows and tables of an impossible form"""
     table = ("stops.csv", TABLE)
