@@ -574,12 +574,18 @@ double ceduo_survey_area(const struct survey_plot *plot)
     return isnan(area) ? M_PI * radius * radius : area;
 }
 
-/* Compute the areas of the plots on the map. */
+/* Compute the areas of the plots on the map. Either all plots have a slope, or none. */
 static void measure_plots(struct survey_reader *r, double *areas)
 {
+    bool any = false;
+    for (size_t i = 0; i < r->plots_count; i++)
+        any |= !isnan(r->plots[i].values[SLOPE]);
     for (size_t i = 0; i < r->plots_count; i++) {
         const double area = ceduo_survey_area(&r->plots[i]), slope = r->plots[i].values[SLOPE];
-        areas[i] = ceduo_survey_horizontal(area, isnan(slope) ? 0 : slope * M_PI / 180);
+        areas[i] = ceduo_survey_horizontal(area, any ? slope * M_PI / 180 : 0);
+        if (any && isnan(slope))
+            ceduo_problem(r->problems, r->csv.source, r->plots[i].line, 1,
+                          _("this plot has no slope, others have one; write it, 0 if the area is that of the map"));
         if (isnan(area))
             ceduo_problem(r->problems, r->csv.source, r->plots[i].line, 1,
                           _("this plot has no area_m2 and no radius_m; give one, or remove the row if it is not a plot"));

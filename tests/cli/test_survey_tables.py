@@ -389,6 +389,13 @@ def test_asked():
         read(f, small.format("area", 10), {"trees": 1000})
         slopes = "saggio;superficie;{};tipo;diametro\n1;400;{};albero;20\n2;400;{};albero;22\n"
         steep = 400 * math.cos(math.radians(50))
+        for first, second, line in ((40, "", 3), ("", 40, 2), ("", 0, 2), (0, "n.d.", 3)):
+            r = survey(f, slopes.format("slope_deg", first, second))
+            refused(r, f"plots.csv:{line}:1: this plot has no slope, others have one; write it, 0 if the area is that of the map")
+            expect_equal(r.err.count("no slope"), 1, r)
+        read(f, slopes.format("slope_deg", 60, "0"), {"trees": per_ha((1, 200), (1, 400))}, "slopes 0 to 60 degrees")
+        read(f, slopes.format("slope_deg", "", ""), {"trees": 25})
+        read(f, slopes.format("slope_deg", 60, 60) + "1;;;albero;24\n", {"trees": per_ha((2, 200), (1, 200))}, "slope 60 degrees")
         for head in ("pendenza", "Slope", "Neigung"):
             refused(survey(f, slopes.format(head, 50, 30)), "plots.csv:2:7: a slope of 50 has no unit", "'slope_deg'", "'slope (%)'")
             for unit in ("_deg", " (gradi)", "_gradi", " (°)"):
