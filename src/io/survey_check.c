@@ -117,12 +117,17 @@ static bool check_sizes(struct survey_reader *r, const struct ceduo_survey *surv
                            basal, HEAD(area));
 }
 
-/* True if two plots have equal names and sites, ignoring case. */
-static bool differ_in_case(const struct survey_plot *a, const struct survey_plot *b)
+static bool are_equal_words(struct csv_cell a, struct csv_cell b)
 {
-    bool same = a->name.n == b->name.n && strncasecmp(a->name.p, b->name.p, a->name.n) == 0;
+    return a.n == b.n && strncasecmp(a.p, b.p, a.n) == 0;
+}
+
+/* True if two plots have equal sites, ignoring case. */
+static bool are_equal_sites(const struct survey_plot *a, const struct survey_plot *b)
+{
+    bool same = true;
     for (size_t i = 0; i < SITES && same; i++)
-        same = a->sites[i].n == b->sites[i].n && strncasecmp(a->sites[i].p, b->sites[i].p, a->sites[i].n) == 0;
+        same = are_equal_words(a->sites[i], b->sites[i]);
     return same;
 }
 
@@ -152,10 +157,16 @@ static bool check_plots(struct survey_reader *r)
     for (size_t i = 0; i < r->plots_count && good; i++)
         for (size_t k = 0; k < i && good; k++) {
             const struct survey_plot *a = &r->plots[k], *b = &r->plots[i];
-            if (differ_in_case(a, b))
+            const bool same = are_equal_sites(a, b);
+            if (same && are_equal_words(a->name, b->name))
                 good = ceduo_problem(
                     r->problems, r->csv.source, b->line, 1,
                     _("the names of this plot and of the plot on line %zu differ only in case; make them equal, or rename one"),
+                    a->line);
+            else if (same && a->number == b->number)
+                good = ceduo_problem(
+                    r->problems, r->csv.source, b->line, 1,
+                    _("the names of this plot and of the plot on line %zu are one number; make them equal, or rename one"),
                     a->line);
             else if (ceduo_csv_compare(a->name, b->name) == 0) {
                 r->split = true;

@@ -115,6 +115,15 @@ static bool are_same_sites(const struct csv_cell *a, const struct csv_cell *b)
     return true;
 }
 
+/* Return a name as a whole number, which may begin with zeros; NaN: another name. 1.1 and 1.10 are two plots. */
+static double read_whole(const struct csv *csv, struct csv_cell name)
+{
+    double number;
+    for (; name.n > 1 && name.p[0] == '0' && name.p[1] >= '0' && name.p[1] <= '9'; name.n--)
+        name.p++;
+    return ceduo_csv_value(csv, name, &number) && number == floor(number) ? number : NAN;
+}
+
 /* Find the plot of a row, or add it. With merged cells, only the first row has the name. */
 static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
 {
@@ -136,8 +145,11 @@ static bool find_plot(struct survey_reader *r, bool has_stem, size_t *plot)
     if (i == 0 && r->plots_count == PLOTS_MAX)
         return ceduo_csv_error(&r->csv, *name, _("more than %d plots"), PLOTS_MAX);
     if (i == 0) {
-        r->plots[r->plots_count] = (struct survey_plot){
-            .name = *name, .line = r->csv.place.line, .values = {[AREA] = NAN, [RADIUS] = NAN, [SLOPE] = NAN, [STOOLS] = NAN}};
+        r->plots[r->plots_count] =
+            (struct survey_plot){.name = *name,
+                                 .number = read_whole(&r->csv, *name),
+                                 .line = r->csv.place.line,
+                                 .values = {[AREA] = NAN, [RADIUS] = NAN, [SLOPE] = NAN, [STOOLS] = NAN}};
         memcpy(r->plots[r->plots_count].sites, sites, SITES * sizeof *sites);
         i = ++r->plots_count;
     } else if (i - 1 != r->plot && r->plots[i - 1].returned == 0) {

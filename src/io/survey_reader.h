@@ -65,6 +65,7 @@ int ceduo_survey_find_species(struct csv_cell cell, struct csv_cell genus);
 
 struct survey_plot {
     struct csv_cell name, sites[SITES], year;
+    double number;             /* the name, as a whole number; NaN: another name */
     size_t line;               /* of its first row */
     size_t returned;           /* line of its first row after rows of other plots; 0: none */
     double values[STOOLS + 1]; /* AREA, RADIUS, SLOPE, STOOLS; NaN: not given */

@@ -362,6 +362,13 @@ def test_sites():
         r = survey(f, cases.format("A", "p2") + "A,P1,400,tree,22\nA,P2,400,tree,22\n")
         refused(r, "plots.csv:4:1: the names of this plot and of the plot on line 2 differ only in case")
         expect_equal(r.err.count("differ only in case"), 1, r)  # stops at the first
+        numbers = "plot,area_m2,kind,dbh_cm\n{},400,tree,20\n{},400,tree,22\n"
+        for first, second in ((1, "01"), (1, "1.0"), ("1.0", "01"), ("007", "7.0")):
+            refused(survey(f, numbers.format(first, second)), "plots.csv:3:1: the names of this plot and of the plot on line 2 are one number; make")
+        for first, second in ((1, 10), (1, 1.1), ("1.1", "1.10"), ("1a", "01a"), ("0a", "00a"), (0, "0-1"), (0, "1"), ("0", "0a"), ("p1", "p01")):
+            read(f, numbers.format(first, second), {"trees": 25})
+        refused(survey(f, cases.format("a", "01").replace("A,p1", "A,1")), "plots.csv:3:1: the names of this plot and of the plot on line 2 are one")
+        read(f, cases.format("B", "01").replace("A,p1", "A,1"), {"trees": 25})
         years = "year,plot,area_m2,kind,dbh_cm\n2015,1,400,tree,20\n{},1,,tree,22\n2020,2,400,tree,22\n"
         for head in ("year", "Anno", "INVYR"):
             refused(survey(f, years.format(2020).replace("year", head)), "plots.csv:3:1: this plot was surveyed in the years 2015 and 2020; keep")
