@@ -42,6 +42,19 @@ static bool is_written(struct validator *v, const char *path, const char *key)
     return ceduo_resolve_at(v->root, ceduo_asprintf(v, "%s.%s", path, key)) != NULL;
 }
 
+/* Warn if a mapping has no `key`, the number without which its other values have no effect. */
+static void warn_unused(struct validator *v, const char *path, const char *group, const char *key)
+{
+    const char *whole = ceduo_asprintf(v, "%s.%s", path, group), *file_path;
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(v->root, whole, &file_path, &used);
+    if (whole[used] || ceduo_node_get(node, key))
+        return;
+    struct problem_place place = ceduo_node_place(node, file_path);
+    place.unusual = true;
+    ceduo_problem_at(v->problems, place, _("'%s' is missing, so the other values here have no effect; add it"), key);
+}
+
 /* Check stumps, logs and groups of trees, which have no defaults. */
 static void check_low(struct validator *v, const char *path, const struct ceduo_stand *s)
 {
@@ -50,9 +63,14 @@ static void check_low(struct validator *v, const char *path, const struct ceduo_
         check_given(v, path, ceduo_schema_field(stand, "stumps"), &s->stumps);
     if (s->logs.per_ha > 0)
         check_given(v, path, ceduo_schema_field(stand, "logs"), &s->logs);
-    for (size_t i = 0; i < s->trees_count; i++)
+    warn_unused(v, path, "stumps", "per_ha");
+    warn_unused(v, path, "logs", "per_ha");
+    for (size_t i = 0; i < s->trees_count; i++) {
+        const char *item_path = ceduo_asprintf(v, "%s.trees[%zu]", path, i);
         if (s->trees[i].group > 1)
-            check_given(v, ceduo_asprintf(v, "%s.trees[%zu]", path, i), ceduo_schema_field(trees, "groups"), &s->trees[i]);
+            check_given(v, item_path, ceduo_schema_field(trees, "groups"), &s->trees[i]);
+        warn_unused(v, item_path, "groups", "stems");
+    }
 }
 
 static void check_stand(struct validator *v, const char *path, struct ceduo_stand *s)
