@@ -291,7 +291,8 @@ static void find_head(struct csv *csv, const struct csv_head *heads, size_t n)
 }
 
 /* Units in a row below the head. */
-#define UNITS "m|m2|m\xc2\xb2|mq|cm|mm|km|ft|in|kj|\xc2\xb0|deg|degrees|gradi|grad|%|n|nr|cod|m slm|m asl|m \xc3\xbcm"
+#define UNITS                                                                                                                  \
+    "m|m2|m\xc2\xb2|mq|cm|mm|km|ft|in|m/s|m s-1|km/h|j|kj|\xc2\xb0|deg|degrees|gradi|grad|%|n|nr|cod|m slm|m asl|m \xc3\xbcm"
 
 /* Append the units of a row below the head to the heads. */
 static void append_units(struct csv *csv)

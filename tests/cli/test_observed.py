@@ -238,6 +238,10 @@ def test_units_of_tables():
     refused("t.csv:1:4: this column must be in m;", {"height": {"x_m": 60, "csv": "t.csv", "column": "altezza (cm)"}}, ("t.csv", "id;altezza\n;cm\na;45\n"))
     accepted(kinds["stops"][0], ("t.csv", "id;x\n;m\na;45\n"))
     accepted(kinds["speed"][0], ("t.csv", "id;speed (m s-1)\na;9\n"))
+    for unit, kind in (("m/s", "speed"), ("m s-1", "speed"), ("kJ", "energy")):
+        accepted(kinds[kind][0], ("t.csv", f"id;{kind}\n;{unit}\na;9\n"))
+    for unit, kind in (("km/h", "speed"), ("(km/h)", "speed"), ("J", "energy")):
+        refused(f"t.csv:1:1: this column must be in {kinds[kind][2]};", kinds[kind][0], ("t.csv", f"{kind}\n{unit}\n9\n"))
 
 
 def test_counts_of_rocks():
