@@ -576,7 +576,7 @@ static void number_all_stools(struct survey_reader *r)
     for (size_t p = 0, begin = 0, end; p < r->plots_count; p++, begin = end) {
         for (end = begin; end < r->shoots_count && r->shoots[end].plot == p;)
             end++;
-        number_stools(r, &r->plots[p], r->shoots + begin, end - begin);
+        number_stools(r, &r->plots[p], end > begin ? r->shoots + begin : NULL, end - begin);
     }
 }
 
