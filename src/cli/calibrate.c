@@ -68,6 +68,50 @@ static enum exit_status find_parameter(struct fit_job *j, size_t i)
     return EXIT_DONE;
 }
 
+/* ---- files to write ---- */
+
+static bool writes_scene(const struct arguments *a)
+{
+    const char *dot = a->output ? strrchr(a->output, '.') : NULL;
+    return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
+}
+
+/* Append the path of the draws, FILE.draws.csv for FILE.yaml. */
+static void append_draws_path(struct text *path, const struct arguments *a)
+{
+    ceduo_text_format(path, "%.*s.draws.csv", (int)(strrchr(a->output, '.') - a->output), a->output);
+}
+
+/* Write the temporary file of the draws. The scene names the draws before they are renamed, so the temporary name must begin with
+ * the final one. Return false with errno set. */
+static bool prepare_draws(struct pending_file *draws)
+{
+    if (!ceduo_file_prepare(draws))
+        return false;
+    bool device = !draws->target; /* or a pipe */
+    errno = device ? EINVAL : ENAMETOOLONG;
+    return !device && strncmp(draws->temporary, draws->target, strlen(draws->target)) == 0;
+}
+
+/* Check before the fit that the draws can be written, and that the run does not read their file. */
+static enum exit_status check_draws(const struct fit_job *j)
+{
+    LOCAL_TEXT(path);
+    append_draws_path(&path, j->arguments);
+    for (size_t s = 0; s < j->scenes_count; s++)
+        for (const struct source *source = j->files[s].arena.sources; source; source = source->before)
+            if (ceduo_output_is(path.bytes, source->path))
+                return EXIT_OUTPUT;
+    struct pending_file trial = {.path = path.bytes, .bytes = "", .wait = true};
+    bool good = prepare_draws(&trial);
+    if (!good)
+        ceduo_print_message(path.bytes, ceduo_error_text(errno));
+    ceduo_file_abort(&trial);
+    return good ? EXIT_DONE : EXIT_OUTPUT;
+}
+
+/* ---- reading ---- */
+
 static enum exit_status open_job(struct fit_job *j)
 {
     const struct arguments *a = j->arguments;
@@ -87,16 +131,10 @@ static enum exit_status open_job(struct fit_job *j)
     if (status == EXIT_DONE && !observed)
         return ceduo_usage_error("calibrate",
                                  _("no scene has observations to fit; add them under 'observed' (man ceduo-scene)"));
-    return status;
+    return status == EXIT_DONE && writes_scene(a) ? check_draws(j) : status;
 }
 
 /* ---- writing the scene ---- */
-
-static bool writes_scene(const struct arguments *a)
-{
-    const char *dot = a->output ? strrchr(a->output, '.') : NULL;
-    return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
-}
 
 /* Print the first scene with the best values. The draws still have a temporary name; the scene names their final file. */
 static bool print_scene(const struct fit_job *j, const struct ceduo_calibration_report *r, const struct pending_file *draws,
@@ -132,19 +170,14 @@ static enum exit_status write_scene(const struct fit_job *j, const struct ceduo_
     LOCAL_TEXT(path);
     LOCAL_TEXT(table);
     LOCAL_TEXT(scene);
-    ceduo_text_format(&path, "%.*s.draws.csv", (int)(strrchr(output, '.') - output), output);
+    append_draws_path(&path, j->arguments);
     ceduo_calibration_draws(&table, r);
     struct pending_file draws = {.path = path.bytes, .bytes = table.bytes, .n = table.length, .wait = true};
     struct pending_file file = {.path = output, .wait = true};
     enum exit_status status = EXIT_OUTPUT;
     const char *failed = path.bytes; /* file with an error in errno; NULL: already reported, or no error */
-    bool filled = ceduo_file_prepare(&draws);
-    if (filled && !draws.target) { /* a device or a pipe */
-        errno = EINVAL;
-    } else if (filled &&
-               strncmp(draws.temporary, draws.target, strlen(draws.target)) != 0) { /* the temporary name was shortened */
-        errno = ENAMETOOLONG;
-    } else if (filled && !print_scene(j, r, &draws, &scene)) {
+    bool filled = prepare_draws(&draws);
+    if (filled && !print_scene(j, r, &draws, &scene)) {
         failed = NULL;
         status = EXIT_RUN;
     } else if (filled) {

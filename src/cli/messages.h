@@ -50,8 +50,8 @@ void ceduo_interrupt_release(void);
 /* True if --output is probably writable and is not a file on the command line; otherwise reports the reason. */
 bool ceduo_output_check(const struct arguments *arguments);
 
-/* Report that --output is this file, by any name, and return true; otherwise return false. */
-bool ceduo_output_is(const struct arguments *arguments, const char *path);
+/* Report that a file to write is this file, by any name, and return true; otherwise return false. `output` may be NULL. */
+bool ceduo_output_is(const char *output, const char *path);
 
 /* Write to --output. Report an error and return EXIT_OUTPUT. */
 enum exit_status ceduo_output_write(const struct arguments *arguments, const struct text *text);

@@ -19,11 +19,11 @@ enum exit_status ceduo_output_write(const struct arguments *a, const struct text
     return EXIT_OUTPUT;
 }
 
-bool ceduo_output_is(const struct arguments *a, const char *path)
+bool ceduo_output_is(const char *output, const char *path)
 {
-    if (!a->output || !path || !ceduo_file_is_same(a->output, path))
+    if (!output || !path || !ceduo_file_is_same(output, path))
         return false;
-    ceduo_print_message(a->output, _("this file is an input of the run; write elsewhere"));
+    ceduo_print_message(output, _("this file is an input of the run; write elsewhere"));
     return true;
 }
 
@@ -37,9 +37,9 @@ bool ceduo_output_check(const struct arguments *a)
         const char *path = a->scenes[i];
         if (strcmp(path, "-") != 0)
             path = ceduo_file_find(&arena, path, NULL, "scenes");
-        good = !ceduo_output_is(a, path);
+        good = !ceduo_output_is(a->output, path);
     }
-    return good && !(a->survey && ceduo_output_is(a, a->survey)) && !(a->each && ceduo_output_is(a, a->each));
+    return good && !(a->survey && ceduo_output_is(a->output, a->survey)) && !(a->each && ceduo_output_is(a->output, a->each));
 }
 
 /* ---- results of several scenes ---- */

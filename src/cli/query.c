@@ -84,7 +84,7 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
         ceduo_print_error(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage && !problems.cell ? EXIT_USAGE : EXIT_INPUT;
     for (const struct source *s = file->arena.sources; s && status != EXIT_OUTPUT; s = s->before)
-        if (ceduo_output_is(a, s->path))
+        if (ceduo_output_is(a->output, s->path))
             status = EXIT_OUTPUT;
     return status == EXIT_DONE && a->mode != MODE_FIND && a->mode != MODE_CALIBRATE ? keep_options(a, file) : status;
 }

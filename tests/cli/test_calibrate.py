@@ -269,6 +269,24 @@ def test_not_written():
             expect(not (f.path / f"{name}.yaml").exists() and f.names() == ["fitted.draws.csv", "s.yaml"], f.names())
 
 
+def test_draws_checked_before_the_fit():
+    """Draws that the run reads, by any name, are not overwritten; nor does a fit begin whose draws cannot be written"""
+    with Folder() as f:
+        table = f.write("fit.draws.csv", f"{RN.replace('*', '0')}\n0.3\n0.4\n")
+        (f.path / "link.draws.csv").symlink_to("fit.draws.csv")
+        path = f.write("s.yaml", quarry(uncertainty={"draws": "fit.draws.csv"}))
+        fine = f.write("t.yaml", quarry())
+        for name, scenes in (("fit", [path]), ("link", [path]), ("fit", [fine, path])):
+            r = ceduo("-n", 20, "--calibrate", f"{RT}=0.7:0.98", "-o", f.path / f"{name}.yaml", *scenes)
+            expect_equal((r.status, r.out), (OUTPUT, ""), r)
+            expect_in(f"{name}.draws.csv: this file is an input of the run; write elsewhere", r.err)
+            expect_equal(table.read_text(), f"{RN.replace('*', '0')}\n0.3\n0.4\n")
+        (f.path / "null.draws.csv").symlink_to("/dev/null")
+        r = ceduo("-n", 20, "--calibrate", f"{RT}=0.7:0.98", "-o", f.path / "null.yaml", fine)
+        expect_equal((r.status, r.out), (OUTPUT, ""), r)
+        expect_equal(f.names(), ["fit.draws.csv", "link.draws.csv", "null.draws.csv", "s.yaml", "t.yaml"])
+
+
 def test_uncertainty_written():
     """-o replaces uncertainty rows of fitted values and keeps the others, also with draws of an earlier fit"""
     density = {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}
