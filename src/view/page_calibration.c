@@ -71,7 +71,10 @@ void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration
             const struct ceduo_observation *o = ceduo_observed_find(r, &r->answer->predicted[k]);
             if (o->use != CEDUO_OBSERVED_USE_FIT)
                 continue;
-            ceduo_text_format(text, "%s%zu ", between, ceduo_observed_number(o));
+            ceduo_text_append(text, between);
+            if (o->kind == CEDUO_OBSERVED_PASSED)
+                ceduo_text_format(text, "%llu of ", (unsigned long long)o->count);
+            ceduo_text_format(text, "%zu ", ceduo_observed_number(o));
             ceduo_text_append_escaped(text, o->name_given);
             between = ", ";
         }

@@ -287,6 +287,15 @@ def test_draws_checked_before_the_fit():
         expect_equal(f.names(), ["fit.draws.csv", "link.draws.csv", "null.draws.csv", "s.yaml", "t.yaml"])
 
 
+def test_source_of_a_count():
+    """The source of a fit has both numbers of a count"""
+    with Folder() as f:
+        seen = {"passed": {"x_m": 60, "count": 5, "of": 6}}
+        r = ceduo("-n", 20, "--calibrate", f"{RT}=0.7:0.98", "-o", f.path / "fitted.yaml", f.write("s.yaml", quarry(seen)))
+        expect_equal(r.status, DONE, r)
+        expect_in('text: "5 of 6 passed at 60 m; rt 95 %', (f.path / "fitted.yaml").read_text())
+
+
 def test_uncertainty_written():
     """-o replaces uncertainty rows of fitted values and keeps the others, also with draws of an earlier fit"""
     density = {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}
