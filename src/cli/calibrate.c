@@ -93,15 +93,18 @@ static bool prepare_draws(struct pending_file *draws)
     return !device && strncmp(draws->temporary, draws->target, strlen(draws->target)) == 0;
 }
 
-/* Check before the fit that the draws can be written, and that the run does not read their file. */
-static enum exit_status check_draws(const struct fit_job *j)
+/* Check before the fit that the first scene and the draws can be written, and that the run does not read the file of the draws. */
+static enum exit_status check_scene(const struct fit_job *j)
 {
     LOCAL_TEXT(path);
+    LOCAL_TEXT(reason);
     append_draws_path(&path, j->arguments);
     for (size_t s = 0; s < j->scenes_count; s++)
         for (const struct source *source = j->files[s].arena.sources; source; source = source->before)
             if (ceduo_output_is(path.bytes, source->path))
                 return EXIT_OUTPUT;
+    if (!ceduo_fit_can_apply(&j->files[0], j->inputs, j->parameters_count, &reason))
+        return ceduo_usage_error("output", "%s", reason.bytes);
     struct pending_file trial = {.path = path.bytes, .bytes = "", .wait = true};
     bool good = prepare_draws(&trial);
     if (!good)
@@ -131,7 +134,7 @@ static enum exit_status open_job(struct fit_job *j)
     if (status == EXIT_DONE && !observed)
         return ceduo_usage_error("calibrate",
                                  _("no scene has observations to fit; add them under 'observed' (man ceduo-scene)"));
-    return status == EXIT_DONE && writes_scene(a) ? check_draws(j) : status;
+    return status == EXIT_DONE && writes_scene(a) ? check_scene(j) : status;
 }
 
 /* ---- writing the scene ---- */

@@ -48,7 +48,13 @@ struct fit_values {
     const char *draws;                /* path of the table of draws, as the document names it; NULL: none */
 };
 
-/* Apply the fit as one edit. Write a ground from materials as segments. Return false with the reason in document->problems. */
+/* True if the fit can be written without loss: `materials` have rows for its grounds, and no range or draws of another value would
+ * be dropped. Otherwise append the reason. */
+bool ceduo_fit_can_apply(const struct scene_file *file, const struct ceduo_input *inputs, size_t n, struct text *reason);
+
+/* Apply the fit as one edit. Values of the library's grounds are written into their rows of `materials`. The source of the fit
+ * excepts other values of its mapping; their assumed ranges become rows of uncertainty. Return false with the reason in
+ * document->problems. */
 bool ceduo_apply_fit(struct document *document, const struct fit_values *fit);
 
 #endif

@@ -10,8 +10,9 @@
 #include "study/observe.h"
 #include "study/predict.h"
 
-#define CORRELATED  0.7 /* correlation from which a pair is reported */
-#define GROUND_PATH "slope.materials["
+#define CORRELATED   0.7 /* correlation from which a pair is reported */
+#define GROUND_PATH  "slope.materials["
+#define SEGMENT_PATH "slope.segments["
 
 void ceduo_calibration_name(struct text *text, const char *path)
 {
@@ -83,22 +84,37 @@ void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration
     }
 }
 
+/* Append the head of a column: the path of a ground of the library, because its stretches change with the profile; else the
+ * places. */
+static void append_head(struct text *text, const struct scene_file *file, const struct ceduo_input *input)
+{
+    LOCAL_TEXT(places);
+    if (file->scene.slope.segments_given == 0 && strncmp(input->places[0], SEGMENT_PATH, sizeof SEGMENT_PATH - 1) == 0)
+        ceduo_text_append(&places, input->path);
+    else
+        ceduo_text_join(&places, input->places, input->places_count, " ");
+    ceduo_text_append_csv(text, places.bytes);
+}
+
 void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
-    for (size_t i = 0; i < a->parameters_count; i++) {
-        const struct ceduo_input *input = &r->inputs[i];
-        LOCAL_TEXT(places);
-        ceduo_text_join(&places, input->places, input->places_count, " ");
-        ceduo_text_append(text, i > 0 ? "," : "");
-        ceduo_text_append_csv(text, places.length > 0 ? places.bytes : input->path);
+    const char *comma = "";
+    for (size_t i = 0; i < a->parameters_count; i++)
+        if (r->inputs[i].places_count > 0) {
+            ceduo_text_append(text, comma);
+            append_head(text, &r->files[0], &r->inputs[i]);
+            comma = ",";
+        }
+    for (size_t k = 0; k < a->draws_count; k++) {
+        comma = "\n";
+        for (size_t i = 0; i < a->parameters_count; i++)
+            if (r->inputs[i].places_count > 0) {
+                ceduo_text_format(text, "%s%s", comma, ROUNDTRIP(a->draws[k * a->parameters_count + i]));
+                comma = ",";
+            }
     }
     ceduo_text_append_char(text, '\n');
-    for (size_t k = 0; k < a->draws_count; k++) {
-        for (size_t i = 0; i < a->parameters_count; i++)
-            ceduo_text_format(text, "%s%s", i > 0 ? "," : "", ROUNDTRIP(a->draws[k * a->parameters_count + i]));
-        ceduo_text_append_char(text, '\n');
-    }
 }
 
 /* ---- the page ---- */

@@ -372,8 +372,8 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
 /* Append misfit, unidentified values and correlated pairs as sentences. */
 void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *report);
 
-/* Append the draws as a table for `uncertainty: {draws: …}`. Each fitted value has a column; its head is the path in the
- * first scene. */
+/* Append the draws as a table for `uncertainty: {draws: …}`. Each fitted value of the first scene has a
+ * column; its head is the path. */
 void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration_report *report);
 
 /* Append the source of the fitted values: "48 stops; 95 % .44–.51". */

@@ -223,7 +223,7 @@ def test_written():
                 expect_in("kind: calibrated", text)
                 expect_in("uncertainty: {draws: fitted.draws.csv}", text)
                 draws = (out.parent / "fitted.draws.csv").read_text().splitlines()
-                expect_in("slope.segments[0].rt", draws[0])
+                expect_equal(draws[0], "slope.segments[0].rt" if path == RT else path)
                 expect(len(draws) > 200)
                 r = ceduo("--sensitivity=4", "-f", "json", "-n", 20, out)
                 expect_equal((r.status, r.err), (DONE, ""), r)
@@ -308,6 +308,123 @@ def test_uncertainty_written():
             expect_in(f"{{draws: {out.stem}.draws.csv, rows: [{{path: rock.density_kg_m3, lo: 2400, hi: 2700}}]}}", out.read_text())
             r = ceduo("--sensitivity=4", "-f", "json", "-n", 20, out)
             expect_equal({i["path"] for i in r.json()[0]["figures"][0]["inputs"]}, {"draws", "rock.density_kg_m3"}, r)
+
+
+TWO_GROUNDS = {"vertices_m": [[0, 150], [20, 110], [120, 20], [160, 5]],
+               "materials": [{"from_m": 0, "to_m": 20, "material": "cliff"}, {"from_m": 20, "to_m": 160, "material": "talus"}]}
+DENSITY = {"path": "rock.density_kg_m3", "lo": 2450, "hi": 2700}
+
+
+def above_the_road(**changes):
+    """A scene whose fit takes no time."""
+    return scene(**{"title": "A road", "rock": {"diameter_m": 0.8, "density_kg_m3": 2600}, "release": {"height_m": 2, "vx_m_s": 0.5},
+                    "slope": TWO_GROUNDS, "controls": [{"x_m": 60}], "forest": None, "simulation": {"rocks": 20},
+                    "observed": [{"passed": {"x_m": 60, "count": 5, "of": 6}}], **changes})
+
+
+def ranges(path):
+    """Return the uncertain inputs of a scene: path and range."""
+    inputs = good("--sensitivity=4", "-f", "json", "-n", 20, path).json()[0]["figures"][0]["inputs"]
+    return {i["path"]: tuple(round(end, 9) if isinstance(end, float) else end for end in (i["lo"], i["hi"])) for i in inputs}
+
+
+def fit_and_compare(f, what, *values):
+    """Fit values of a scene that is written to s.yaml. Return the text of the new scene, and the ranges of both."""
+    path, out = f.write("s.yaml", what), f.path / "fitted.yaml"
+    r = ceduo("-n", 20, *[word for value in values for word in ("--calibrate", value)], "-o", out, path)
+    expect_equal((r.status, r.err), (DONE, ""), r)
+    return out.read_text(), ranges(path), ranges(out)
+
+
+def without(named, *paths):
+    return {path: ends for path, ends in named.items() if path not in paths}
+
+
+def test_ranges_of_a_library_ground():
+    """A fitted ground of the library stays in its row: the ranges of the user, of the other grounds and of the other values stay"""
+    roughness = {"path": "slope.materials[talus].roughness_m", "lo": 0.05, "hi": 0.6}
+    with Folder() as f:
+        friction = "slope.materials[talus].friction"
+        text, before, after = fit_and_compare(f, above_the_road(uncertainty=[DENSITY, roughness]), f"{friction}=0.1:0.8")
+        expect_equal(len(before), 9, "two grounds of four values, and the density")
+        expect_equal(without(after, "draws"), without(before, friction))
+        expect_equal(after[roughness["path"]], (0.05, 0.6))
+        expect(re.search(r'"material": "cliff"\}, \{from_m: 20, to_m: 160, material: talus, friction: [\d.]+, source: ', text), text)
+        expect("segments" not in text and text.count("calibrated") == 1 and "except" not in text, text)
+        text, before, after = fit_and_compare(f, above_the_road(uncertainty=[DENSITY, roughness]), f"{RN}=0.2:0.5")
+        expect_equal(without(after, "draws"), without(before, *(f"slope.materials[{ground}].rn" for ground in ("cliff", "talus"))))
+        expect_equal((text.count("calibrated"), (f.path / "fitted.draws.csv").read_text().split("\n")[0]), (2, RN))
+        own = {**TWO_GROUNDS, "materials": [{"from_m": 0, "to_m": 160, "material": "talus", "rn": 0.3}]}
+        text, before, after = fit_and_compare(f, above_the_road(slope=own), f"{friction}=0.1:0.8")
+        expect_equal(without(after, "draws"), without(before, friction))
+        expect_in("except: [rn]}", text)
+
+
+def test_ranges_of_an_assumed_ground():
+    """A profile without ground gets a row of talus; the other values of talus stay uncertain, and its file is still named"""
+    with Folder() as f:
+        f.write("profile.csv", "x,z\n0,150\n20,110\n120,20\n160,5\n")
+        for path in ("slope.materials[talus].friction", "slope.segments[*].friction"):
+            text, before, after = fit_and_compare(f, above_the_road(slope={"csv": "profile.csv"}), f"{path}=0.1:0.8")
+            expect_equal(without(after, "draws"), without(before, "slope.materials[talus].friction", "slope.tolerance_m"),
+                         "no tolerance of its range leaves out a point")
+            expect_equal(len(after), 4, after)
+            expect_in("profile.csv", text)
+
+
+def test_ranges_of_assumed_values():
+    """Assumed values beside a fitted one are not called calibrated, and keep their ranges; so do those of other mappings"""
+    guess = {"kind": "assumed", "text": "a guess"}
+    ground = {"rn": 0.3, "rt": 0.98, "roughness_m": 0.2, "friction": 0.5}
+    slope = {"vertices_m": TWO_GROUNDS["vertices_m"], "segments": [ground, {**ground, "rn": 0.4}, {**ground, "source": guess}], "source": guess}
+    forest = [{"from_m": 30, "to_m": 50, "stand": stand(stools=None, shoots=None, energy={"model": "brauner", "u_J_m3": 30000, "source": guess}, trees=[
+        {"per_ha": 100, "dbh_m": 0.2, "height_m": 12, "volume_m3": 0.2, "source": guess}])}]
+    fitted = {"slope.segments[1].friction": "0.1:0.8", "forest[0].stand.trees[0].dbh_m": "0.1:0.3", "forest[0].stand.energy.u_J_m3": "2e4:4e4"}
+    with Folder() as f:
+        what = above_the_road(slope=slope, forest=forest)
+        text, before, after = fit_and_compare(f, what, *(f"{path}={ends}" for path, ends in fitted.items()))
+        expect_equal(before["slope.segments[1].rt"], (0.931, 1.029))
+        expect_equal(without(after, "draws"), {**without(before, *fitted), "slope.segments[1].rt": (0.931, 1)})
+        expect("forest[0].stand.energy.model" in after and len(after) == len(before) - 2, "three values are now draws", after)
+        for names in ("rn, rt, roughness_m", "per_ha, height_m, volume_m3", "model"):
+            expect_in(f"except: [{names}]", text)
+        expect_equal((text.count("calibrated"), text.count("a guess")), (3, 2), "the other segments keep their source")
+        read = good("--check", f.path / "fitted.yaml")
+        expect_equal(read.err, "")
+
+
+def test_nothing_dropped():
+    """A fit that would drop a range or draws of another value is refused before it begins, with a remedy"""
+    with Folder() as f:
+        first, second = f.path / "first.yaml", f.path / "second.yaml"
+        path = f.write("s.yaml", above_the_road())
+        friction, roughness = (f"slope.materials[talus].{key}" for key in ("friction", "roughness_m"))
+        good("-n", 20, "--calibrate", f"{friction}=0.1:0.8", "-o", first, path)
+        wide = f.write("wide.yaml", above_the_road(uncertainty=[{"path": "slope.segments[*].friction", "lo": 0.2, "hi": 0.7}]))
+        for values, scene_path, why in (
+                ([roughness], first, "'first.draws.csv' has draws of other values, which the new scene would lose; fit all of them together"),
+                ([friction], wide, "the row 'slope.segments[*].friction' of uncertainty also names values that are not fitted"),
+                (["slope.segments[0].friction"], path, "'slope.segments[0].friction' cannot be written into 'materials'; fit slope.materials[NAME].KEY"),
+                (["slope.materials[talus].roughness_rad"], path, "'slope.materials[talus].roughness_rad' cannot be written into 'materials'")):
+            fits = [f"--calibrate={value}=0.1:0.6" for value in values]
+            r = ceduo("-n", 20, *fits, "-o", second, scene_path)
+            expect_equal((r.status, r.out), (USAGE, ""), r)
+            expect_in(why, r.err)
+            expect(not second.exists())
+            expect_equal(ceduo("-n", 20, *fits, scene_path).status, DONE, "a fit that writes no scene")
+        good("-n", 20, "--calibrate", f"{friction}=0.1:0.8", "--calibrate", f"{roughness}=0.1:0.6", "-o", second, first)
+        expect_equal((f.path / "second.draws.csv").read_text().split("\n")[0], f"{friction},{roughness}")
+
+
+def test_written_without_a_value():
+    """A value that only another scene has is not written into the first"""
+    one = {**TWO_GROUNDS, "materials": [{"from_m": 0, "to_m": 160, "material": "cliff"}]}
+    with Folder() as f:
+        out = f.path / "fitted.yaml"
+        good("-n", 20, *[f"--calibrate=slope.materials[{ground}].friction=0.1:0.8" for ground in ("talus", "cliff")], "-o", out,
+             f.write("s.yaml", above_the_road(slope=one)), f.write("t.yaml", above_the_road()))
+        expect_in("draws", ranges(out))
+        expect_equal({len(line.split(",")) for line in (f.path / "fitted.draws.csv").read_text().splitlines()}, {1})
 
 
 def test_table_from_elsewhere():

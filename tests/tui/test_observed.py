@@ -224,6 +224,18 @@ def read_picture(screen):
     return lines[:next(i for i, line in enumerate(lines) if "└" in line) + 2]
 
 
+def test_fit_of_a_library_ground():
+    """Enter writes a fitted ground of the library into its row, and the other grounds and the points of the profile stay"""
+    with Place() as place:
+        place.write("s.yaml", (GROUNDS % "talus").replace(
+            "slope:", "uncertainty: [{path: 'slope.materials[talus].friction', lo: 0.2, hi: 0.6}]\nslope:"))
+        place.play("key 8\nwait idle\nkey c\nkey Enter\nwait idle\nkey Enter\nwait idle\nkey s\nwait idle", "s.yaml")
+        text = place.text("s.yaml")
+    expect_in("{from_m: 0, to_m: 60, material: cliff}", text)
+    expect(re.search(r"from_m: 60,? *\n? *to_m: 200,? *\n? *material: talus,? *\n? *friction: 0\.\d+,? *\n? *source: *\n? *\{?kind: calibrated", text), text)
+    expect("segments" not in text and "[200, 1]" in text and "'slope.materials[talus].friction'" in text.replace('"', "'"), text)
+
+
 def test_stops_of_each_option():
     """For stops below two forests the picture is the shown option's"""
     head = GROUNDS[:GROUNDS.index("forest:")].replace("  materials:", "  segments: [{rn: 0.3, rt: 0.8}]\n  # ").replace(
