@@ -283,7 +283,7 @@ static void set_rows(struct writing *w, struct changes *values, const struct ced
     const struct scene_file *file = &w->document->file;
     const struct node *rows = ceduo_node_get(ceduo_node_get(file->root, "slope"), "materials");
     const char *path = find_rows_path(w->arena, file, input);
-    if (!path) /* untaken: ceduo_fit_can_apply() */
+    if (!path) /* ceduo_fit_can_apply() refuses it */
         return;
     ceduo_changes_add(values, CHANGE_SET, path, value);
     for (size_t i = 0; i < (file->ground_assumed ? 1 : rows->n); i++)
