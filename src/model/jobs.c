@@ -14,6 +14,7 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -471,6 +472,20 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene)
     return key;
 }
 
+uint64_t ceduo_jobs_nodes_key(const struct node *root)
+{
+    static const char *const titles[] = {"title", "title_it", "page"};
+    uint64_t key = HASH_START;
+    for (size_t i = 0; i < root->n; i++) {
+        bool counts = true;
+        for (size_t k = 0; k < sizeof titles / sizeof titles[0]; k++)
+            counts &= strcmp(root->items[i]->key, titles[k]) != 0;
+        if (counts)
+            hash_count(&key, (uint64_t)(uintptr_t)root->items[i]);
+    }
+    return key;
+}
+
 /* Return a job on a snapshot of the scene. The job owns the snapshot's memory. */
 static struct job make_job(enum job_kind kind, const struct scene_file *file, size_t option, size_t levels)
 {
@@ -551,7 +566,7 @@ bool ceduo_jobs_request(struct jobs *q, const struct job_request *r)
     if (r->fit)
         job.fit = *r->fit;
     if (r->kind == JOB_UNCERTAINTY || r->kind == JOB_COMPARISON)
-        job.key = (uint64_t)(uintptr_t)r->file->root;
+        job.key = ceduo_jobs_nodes_key(r->file->root);
     return enqueue(q, &job);
 }
 

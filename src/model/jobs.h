@@ -91,6 +91,10 @@ void ceduo_jobs_free(struct jobs *jobs);
 /* Return a key of everything that affects the runs of a scene. Scenes with equal keys have the same figures. */
 uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
 
+/* Return a key of a scene's nodes, except title and head of the report, which affect no figure. Trees with equal keys share all
+ * other nodes. */
+uint64_t ceduo_jobs_nodes_key(const struct node *root);
+
 /* ---- requests: copy the scene, whose pointers stay valid until the jobs are freed; true if there is work ---- */
 
 /* Request the figures of a scene: option `shown` and no forest first, then all options and their years. */
@@ -109,7 +113,7 @@ struct job_request {
     const struct fit_request *fit; /* restarts if it is interrupted */
 };
 
-/* A scene with the same nodes is computed once. Figures and years go first unless they need more rocks. */
+/* A scene with the same nodes, by ceduo_jobs_nodes_key(), is computed once. Figures and years go first unless they need more rocks. */
 bool ceduo_jobs_request(struct jobs *jobs, const struct job_request *request);
 
 /* Stop a search or fit and drop its result. */

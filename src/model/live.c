@@ -36,10 +36,16 @@ struct ceduo_years *ceduo_live_years(const struct live *l, const struct ceduo_sc
     return years && years->scene.controls_count == scene->controls_count ? years : NULL;
 }
 
+/* True if the results of one file are those of another. */
+static bool has_same_nodes(const struct scene_file *a, const struct scene_file *b)
+{
+    return a->root == b->root || ceduo_jobs_nodes_key(a->root) == ceduo_jobs_nodes_key(b->root);
+}
+
 const struct uncertainty *ceduo_live_uncertainty(const struct live *l, const struct scene_file *file)
 {
     const struct uncertainty *u = l->results.uncertainty;
-    return u && u->file.root == file->root ? u : NULL;
+    return u && has_same_nodes(&u->file, file) ? u : NULL;
 }
 
 double ceduo_live_uncertainty_progress(const struct live *l, const struct scene_file *file, size_t option)
@@ -60,7 +66,7 @@ bool ceduo_live_is_stale(const struct live *l, const struct ceduo_scene *scene, 
 const struct comparison *ceduo_live_comparison(const struct live *l, const struct scene_file *file)
 {
     const struct comparison *c = l->results.comparison;
-    return c && c->file.root == file->root ? c : NULL;
+    return c && has_same_nodes(&c->file, file) ? c : NULL;
 }
 
 const struct fit *ceduo_live_fitted(const struct live *l)

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from play import FAST, Place, check_good, fast, run_script  # noqa: E402
+from play import CUTS, FAST, Place, check_good, fast, run_script  # noqa: E402
 from harness import PROFILES, Skip, expect, expect_equal, expect_in, expect_near, results, run_all  # noqa: E402
 from test_editing import read_index  # noqa: E402
 
@@ -448,6 +448,29 @@ def test_report_head():
         expect("<dt>Owner</dt>" not in report, "an empty line is left out")
         for line in ("place: \"Serra 'de\u2019 Conti': <b>\"", 'date: "2026-11-24"'):
             expect_in(line, kept, "stored in the scene")
+
+
+def test_report_after_head():
+    """The head of a report changes no figure: the first report has the uncertain inputs that the screen has."""
+    uncertain = 'uncertainty:\n  - {path: "options[*].forest[*].stand.energy.u_J_m3", lo: 20000, hi: 120000}\n'
+    with Place() as place:
+        place.write("cuts.yaml", CUTS + uncertain)
+        ranges, written, undone = place.play("""
+            resize 120 40
+            key 7
+            wait idle
+            dump
+            key w Down Down Down Down Down Enter
+            key Enter Enter Enter Enter Enter Enter Enter
+            dump
+            key u
+            dump""", "cuts.yaml")
+        report = place.text("ceduo.html")
+    expect(ranges.body.count("\u2013"), "no range", ranges)
+    expect_equal(written.note.strip(), "written: ceduo.html")
+    expect_in("How sure is it?", report)
+    expect("was not computed" not in report, "the uncertain inputs of the screen")
+    expect_equal(undone.body, ranges.body, "the head undone")
 
 
 NOTHING = """\
