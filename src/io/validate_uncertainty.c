@@ -153,6 +153,40 @@ static const struct field *find_field(struct validator *v, const char *path)
     return value ? f : NULL;
 }
 
+/* Add the places of several paths, each once. Set *field to the row of their key; NULL: no option of them was kept. Return
+ * false with the first path in *bad that has no such row, or another key than the paths before it. */
+static bool find_all_places(struct places *p, const char *prefix, const char *paths, const struct field **field, const char **bad)
+{
+    struct validator *v = p->v;
+    size_t n;
+    *field = NULL;
+    *bad = paths;
+    for (const char *rest = paths, *next; (next = ceduo_paths_next(&rest, &n));) {
+        const char *written = ceduo_asprintf(v, "%s%.*s", prefix, (int)n, next);
+        const char *path = prefix[0] || !written ? written : translate_option(v, written);
+        if (!written) /* untaken: memory */
+            return false;
+        if (!path) /* the option was not kept */
+            continue;
+        const struct field *own = find_field(v, path);
+        struct places found = {.v = v};
+        *bad = path;
+        if (!own || (*field && strcmp(own->key, (*field)->key) != 0))
+            return false;
+        *field = own;
+        find_places(&found, path);
+        size_t before = p->n;
+        for (size_t i = 0; i < found.n; i++) {
+            bool added = false;
+            for (size_t k = 0; k < before; k++)
+                added |= ceduo_schema_same(p->items[k], found.items[i]);
+            if (!added)
+                add_place(p, found.items[i]);
+        }
+    }
+    return true;
+}
+
 /* ---- ranges ---- */
 
 /* Return the place of a key of a row. */
@@ -228,20 +262,23 @@ static bool make_input(struct validator *v, const struct row *row, struct places
 {
     const struct uncertainty_row *d = &row->uncertainty;
     bool is_stand_row = row->prefix[0] != '\0';
-    const char *path = is_stand_row ? ceduo_asprintf(v, "%s%s", row->prefix, d->path) : translate_option(v, d->path);
-    if (!path)
-        return false;
-    const struct field *field = find_field(v, path);
-    const char *removed = ceduo_removed_hint(path);
+    const struct field *field;
+    const char *path = ceduo_asprintf(v, "%s%s", row->prefix, d->path), *bad;
     *places = (struct places){.v = v};
+    bool good = find_all_places(places, row->prefix, d->path, &field, &bad);
+    const char *removed = good ? NULL : ceduo_removed_hint(bad);
     if (removed)
         return ceduo_reject(v, row->path, "path", "%s", _(removed));
-    if (!field)
+    if (!good && field)
+        return ceduo_reject(v, row->path, "path", _("'%s' has another key than the paths before it; write a row for each key"),
+                            bad);
+    if (!good)
         return ceduo_reject(
             v, row->path, "path",
             _("'%s' affects no result; name a number or a word of the rock, its release, the slope, a stand or the law"),
             d->path);
-    find_places(places, path);
+    if (!field) /* no option of the row was kept */
+        return false;
     if (places->n == 0) {
         warn_missing(v, row, path);
         return false;
@@ -314,6 +351,8 @@ static void add_stand_rows(struct validator *v)
         const struct source_note *notes = NULL;
         struct places places;
         struct ceduo_input input;
+        const struct field *field;
+        const char *bad;
         bool duplicate = false;
         if (r->done)
             continue;
@@ -331,7 +370,7 @@ static void add_stand_rows(struct validator *v)
             if (same->list->items[same->index] == node) {
                 same->done = true;
                 if (good)
-                    find_places(&places, ceduo_asprintf(v, "%s%s", same->prefix, r->uncertainty.path));
+                    find_all_places(&places, same->prefix, r->uncertainty.path, &field, &bad);
             }
         if (!good)
             continue;
@@ -366,11 +405,11 @@ struct draws {
 static const struct field *find_fitted_places(struct validator *v, const char *path, struct ceduo_input *input)
 {
     struct places p = {.v = v};
-    const struct field *field = find_field(v, path);
+    const struct field *field;
+    const char *bad;
     *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE};
-    if (!field || field->type == FIELD_CHOICE)
+    if (!find_all_places(&p, "", path, &field, &bad) || !field || field->type == FIELD_CHOICE)
         return NULL;
-    find_places(&p, path);
     input->places = p.items;
     input->places_count = p.n;
     return v->arena->failed ? NULL : field;
@@ -486,6 +525,18 @@ static void add_draws(struct validator *v)
 
 /* ---- all ---- */
 
+/* True if a path of a row is among the paths of another row, with names or indices of items. */
+static bool has_common_path(struct validator *v, const char *a, const char *b)
+{
+    size_t n, m;
+    for (const char *rest = a, *one; (one = ceduo_paths_next(&rest, &n));)
+        for (const char *others = b, *other; (other = ceduo_paths_next(&others, &m));)
+            if (ceduo_schema_same(replace_names(v, ceduo_asprintf(v, "%.*s", (int)n, one)),
+                                  replace_names(v, ceduo_asprintf(v, "%.*s", (int)m, other))))
+                return true;
+    return false;
+}
+
 void ceduo_validate_uncertainty(struct validator *v)
 {
     size_t n = ceduo_is_valid_below(v, "uncertainty") ? v->draft.uncertainties_count : 0;
@@ -504,8 +555,7 @@ void ceduo_validate_uncertainty(struct validator *v)
             const struct ceduo_input *b = &v->file->inputs[k];
             for (size_t p = 0; p < input.places_count && b->kind == CEDUO_INPUT_DRAWS; p++)
                 duplicate |= bsearch(&input.places[p], b->places, b->places_count, sizeof *b->places, by_name) != NULL;
-            duplicate |=
-                b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(replace_names(v, b->path), replace_names(v, input.path));
+            duplicate |= b->kind != CEDUO_INPUT_DRAWS && has_common_path(v, b->path, input.path);
         }
         if (duplicate)
             ceduo_reject(v, row.path, "path", _("'%s' is given twice"), row.uncertainty.path);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Edits. Each makes a changed tree, which shares all nodes off the path of the change, and commits it as a new state. Rows
- * of `uncertainty` name values by path; their paths follow a value that moves. */
+ * of `uncertainty` name values by path; their paths follow a value that moves or is copied. */
 #include "document.h"
 
 #include <math.h>
@@ -60,17 +60,51 @@ static void replace_node(struct edit *e, const char *path, const struct node *va
 
 /* ---- rows of uncertainty ---- */
 
-/* Return the new path of a row: unchanged, another one, or NULL to remove the row. */
-typedef const char *path_change(struct arena *arena, const char *path, const void *context);
+/* Return the new path for one path of a row: unchanged, another one, several separated by blanks, or NULL to remove it. `only`:
+ * the row has no other path. */
+typedef const char *path_change(struct arena *arena, const char *path, bool only, const void *context);
 
+/* Append paths to others, unless they are there already. */
+static void append_paths(struct arena *arena, struct text *to, const char *paths)
+{
+    size_t n, m;
+    for (const char *rest = paths, *path; (path = ceduo_paths_next(&rest, &n));) {
+        bool added = false;
+        for (const char *others = ceduo_text_string(to), *other; (other = ceduo_paths_next(&others, &m));)
+            added |= n == m && memcmp(path, other, n) == 0;
+        if (!added)
+            ceduo_text_format(to, "%s%s", to->length > 0 ? " " : "", ceduo_arena_copy(arena, path, n));
+    }
+}
+
+/* Return the paths of a row, each changed; NULL: none is left. */
+static const char *change_row(struct arena *arena, const char *paths, path_change *change, const void *context)
+{
+    LOCAL_TEXT(all);
+    size_t n, count = 0;
+    for (const char *rest = paths; ceduo_paths_next(&rest, &n);)
+        count++;
+    for (const char *rest = paths, *path; (path = ceduo_paths_next(&rest, &n));) {
+        const char *changed = change(arena, ceduo_arena_copy(arena, path, n), count == 1, context);
+        if (changed)
+            append_paths(arena, &all, changed);
+    }
+    return strcmp(ceduo_text_string(&all), paths) == 0 ? paths
+           : all.length > 0                            ? ceduo_arena_string(arena, all.bytes)
+                                                       : NULL;
+}
+
+/* Change the paths of all rows. `root`: a scene, or a stand. */
 static const struct node *change_paths(struct arena *arena, const struct node *root, path_change *change, const void *context)
 {
-    const struct node *rows = ceduo_node_get(root, "uncertainty"), *now = rows;
+    const struct node *uncertainty = ceduo_node_get(root, "uncertainty");
+    bool draws = uncertainty && uncertainty->kind == NODE_MAP; /* a calibration, whose rows are below */
+    const struct node *rows = draws ? ceduo_node_get(uncertainty, "rows") : uncertainty, *now = rows;
     if (!rows || rows->kind != NODE_LIST)
         return root;
     for (size_t i = rows->n; i-- > 0;) {
         const struct node *row = rows->items[i];
-        const char *path = ceduo_node_text(row, "path"), *changed = path ? change(arena, path, context) : path;
+        const char *path = ceduo_node_text(row, "path"), *changed = path ? change_row(arena, path, change, context) : path;
         if (path && !changed)
             now = ceduo_node_removed(arena, now, i);
         else if (changed != path)
@@ -79,49 +113,107 @@ static const struct node *change_paths(struct arena *arena, const struct node *r
     }
     if (now == rows)
         return root;
+    if (draws)
+        now = now->n == 0 ? ceduo_node_without(arena, uncertainty, "rows") : ceduo_node_with(arena, uncertainty, "rows", now);
     return now->n == 0 ? ceduo_node_without(arena, root, "uncertainty") : ceduo_node_with(arena, root, "uncertainty", now);
+}
+
+/* Return the rest of a path below a list; NULL: it leads elsewhere. The path may name items of the list's path, or have [*] for
+ * one; *star: the first [*]; NULL: none. */
+static const char *find_below_list(const struct node *root, const char *path, const char *list, const char **star)
+{
+    size_t length = strlen(list), pos = 0, at = 0, index, item;
+    struct path_step step, own;
+    *star = NULL;
+    for (size_t before = 0; ceduo_path_next(list, length, &pos, &own); before = pos) {
+        if (!ceduo_path_next(path, strlen(path), &at, &step) || step.bracket != own.bracket)
+            return NULL;
+        bool same = step.n == own.n && memcmp(step.p, own.p, own.n) == 0;
+        if (!same && step.bracket && ceduo_path_is(&step, "*")) {
+            *star = *star ? *star : step.p - 1;
+        } else if (!same) {
+            LOCAL_TEXT(holder);
+            ceduo_text_append_n(&holder, list, before);
+            const struct node *items = step.bracket ? ceduo_resolve_at(root, ceduo_text_string(&holder)) : NULL;
+            if (!items || !ceduo_path_index(&own, &index) || !ceduo_resolve_item(items, &step, &item) || item != index)
+                return NULL;
+        }
+    }
+    return path + at;
+}
+
+/* Read the first step of a path below a list. True if it is an item, by index or name; sets its position, and *rest to the text
+ * after it. */
+static bool read_item(const struct node *root, const char *list, const char *below, size_t *position, bool *named,
+                      const char **rest)
+{
+    struct path_step step;
+    size_t end = 0;
+    const struct node *items = ceduo_resolve_at(root, list);
+    if (!ceduo_path_next(below, strlen(below), &end, &step) || !step.bracket || ceduo_path_is(&step, "*"))
+        return false;
+    *rest = below + end;
+    *named = !ceduo_path_index(&step, position);
+    return !*named || (items && items->kind == NODE_LIST && ceduo_resolve_item(items, &step, position));
 }
 
 /* An item of a list was inserted before `from` (1), removed (-1), or moved to `to` (0). */
 struct shift {
+    const struct node *before; /* scene, or stand, before the change */
     const char *list;
     size_t from, to;
     int delta;
 };
 
-static const char *shift_path(struct arena *arena, const char *path, const void *context)
+/* A path with [*] for an item above the list gets a path for each of these items, because only one list has changed. */
+static const char *shift_path(struct arena *arena, const char *path, bool only, const void *context)
 {
     const struct shift *s = context;
-    size_t n = strlen(s->list);
-    char *end;
-    if (strncmp(path, s->list, n) != 0 || path[n] != '[' || path[n + 1] < '0' || path[n + 1] > '9')
+    const char *star, *rest, *below = find_below_list(s->before, path, s->list, &star);
+    size_t position, now;
+    bool named;
+    if (!below || !read_item(s->before, s->list, below, &position, &named, &rest))
         return path;
-    size_t position = strtoul(path + n + 1, &end, 10), now = position;
-    if (s->delta < 0 && position == s->from)
-        return *end == ']' ? NULL : path;
+    bool removed = s->delta < 0 && position == s->from;
+    now = position;
     if (s->delta != 0)
         now = position < s->from ? position : s->delta < 0 ? position - 1 : position + 1;
     else if (position == s->from)
         now = s->to;
     else if (position >= (s->from < s->to ? s->from : s->to) && position <= (s->from < s->to ? s->to : s->from))
         now = s->from < s->to ? position - 1 : position + 1;
-    return now == position || *end != ']' ? path : ceduo_arena_format(arena, "%s[%zu%s", s->list, now, end);
+    if (named) /* a single path stays for the next item with this name */
+        return removed && !only ? NULL : path;
+    if (now == position && !removed)
+        return path;
+    if (!star)
+        return removed ? NULL
+                       : ceduo_arena_format(arena, "%.*s[%zu]%s", (int)(below - path), path, now, rest);
+    LOCAL_TEXT(all);
+    const char *above = ceduo_arena_copy(arena, path, (size_t)(star - path));
+    const struct node *items = ceduo_resolve_at(s->before, above);
+    for (size_t i = 0; items && i < items->n; i++) {
+        const char *one = shift_path(arena, ceduo_arena_format(arena, "%s[%zu]%s", above, i, star + strlen("[*]")), false, s);
+        append_paths(arena, &all, one ? one : "");
+    }
+    return all.length > 0 ? ceduo_arena_string(arena, all.bytes) : NULL;
 }
 
-/* Adjust rows about the items of a list, in the scene and in the stand of the list. Without rows left, write "none": the
- * file of the stand may have rows. */
-static void shift_uncertainties(struct edit *e, const char *list, size_t from, size_t to, int delta)
+/* Adjust rows about the items of a list, in the scene and in the stand of the list. `before`: the scene before the change.
+ * Without rows left, write "none": the file of the stand may have rows. */
+static void shift_uncertainties(struct edit *e, const struct node *before, const char *list, size_t from, size_t to, int delta)
 {
     const char *in_stand = strstr(list, ".stand.");
     if (!e->root)
         return;
-    e->root = change_paths(e->arena, e->root, shift_path, &(struct shift){list, from, to, delta});
+    e->root = change_paths(e->arena, e->root, shift_path, &(struct shift){before, list, from, to, delta});
     const char *path = in_stand ? ceduo_arena_copy(e->arena, list, (size_t)(in_stand - list) + strlen(".stand")) : NULL;
     const struct node *stand = path ? ceduo_resolve_at(e->root, path) : NULL;
     if (!stand)
         return;
     const struct node *now =
-        change_paths(e->arena, stand, shift_path, &(struct shift){in_stand + strlen(".stand."), from, to, delta});
+        change_paths(e->arena, stand, shift_path,
+                     &(struct shift){ceduo_resolve_at(before, path), in_stand + strlen(".stand."), from, to, delta});
     if (now == stand)
         return;
     if (!ceduo_node_get(now, "uncertainty"))
@@ -130,15 +222,62 @@ static void shift_uncertainties(struct edit *e, const char *list, size_t from, s
     replace_node(e, path, now);
 }
 
+/* An item of a list and its copy. */
+struct copied {
+    const struct node *root;
+    const char *list;
+    size_t from, to;
+};
+
+static const char *copy_path(struct arena *arena, const char *path, bool only, const void *context)
+{
+    const struct copied *c = context;
+    const char *star, *rest, *below = find_below_list(c->root, path, c->list, &star);
+    size_t position;
+    bool named;
+    (void)only;
+    if (!below || !read_item(c->root, c->list, below, &position, &named, &rest) || position != c->from)
+        return path;
+    return ceduo_arena_format(arena, "%s %s[%zu]%s", path, c->list, c->to, rest);
+}
+
+/* Let the rows about an item count for its copy, too: the stems or the ground are the same, so the input is the same. */
+static void copy_uncertainties(struct edit *e, const char *list, size_t from, size_t to)
+{
+    if (e->root)
+        e->root = change_paths(e->arena, e->root, copy_path, &(struct copied){e->root, list, from, to});
+}
+
+/* The scene before and after a value was set. */
+struct values {
+    const struct node *before, *now;
+};
+
+static const char *drop_changed(struct arena *arena, const char *path, bool only, const void *context)
+{
+    const struct values *v = context;
+    (void)arena;
+    bool one = !only && !strstr(path, "[*]");
+    return one && !ceduo_node_equal(ceduo_resolve_at(v->before, path), ceduo_resolve_at(v->now, path)) ? NULL : path;
+}
+
+/* Remove the path of a changed value from rows with several paths, whose values are no longer the same. */
+static void drop_changed_values(struct edit *e, const struct node *before)
+{
+    if (e->root)
+        e->root = change_paths(e->arena, e->root, drop_changed, &(struct values){before, e->root});
+}
+
 /* A new prefix for paths: the number of an option for its name, or an option for the forest. */
 struct prefix_change {
     const char *from, *to;
 };
 
-static const char *change_prefix(struct arena *arena, const char *path, const void *context)
+static const char *change_prefix(struct arena *arena, const char *path, bool only, const void *context)
 {
     const struct prefix_change *b = context;
     size_t n = strlen(b->from);
+    (void)only;
     return strncmp(path, b->from, n) == 0 ? ceduo_arena_format(arena, "%s%s", b->to, path + n) : path;
 }
 
@@ -151,6 +290,7 @@ static void remove_entry(struct edit *e, const char **path)
     const char *cut = bracket && (!dot || bracket > dot) ? bracket : dot, *last = cut ? cut + 1 : *path;
     const char *parent = ceduo_arena_copy(e->arena, *path, cut ? (size_t)(cut - *path) : 0);
     const struct node *holder = parent[0] ? ceduo_resolve_at(e->root, parent) : e->root, *reduced = NULL;
+    const struct node *before = e->root;
     size_t index = strtoul(last, NULL, 10);
     bool list = holder && holder->kind == NODE_LIST;
     if (list && index < holder->n)
@@ -159,7 +299,7 @@ static void remove_entry(struct edit *e, const char **path)
         reduced = ceduo_node_without(e->arena, holder, ceduo_arena_copy(e->arena, last, strcspn(last, "]")));
     if (list && reduced && reduced->n == 0 && strcmp(parent, "options") != 0) {
         *path = parent;
-        shift_uncertainties(e, parent, index, 0, -1);
+        shift_uncertainties(e, before, parent, index, 0, -1);
         remove_entry(e, path);
         return;
     }
@@ -170,7 +310,7 @@ static void remove_entry(struct edit *e, const char **path)
     else
         e->root = reduced;
     if (list)
-        shift_uncertainties(e, parent, index, 0, -1);
+        shift_uncertainties(e, before, parent, index, 0, -1);
 }
 
 /* Insert an item into a list; create the list if it is missing. */
@@ -183,8 +323,16 @@ static void insert_item(struct edit *e, const char *list, size_t index, const st
         return;
     }
     index = index > holder->n ? holder->n : index;
+    const struct node *before = e->root;
     replace_node(e, list, ceduo_node_inserted(e->arena, holder, index, ceduo_node_renamed(e->arena, item, NULL)));
-    shift_uncertainties(e, list, index, 0, 1);
+    shift_uncertainties(e, before, list, index, 0, 1);
+}
+
+/* Insert a copy of item `from`, with its uncertainty. */
+static void insert_copy(struct edit *e, const char *list, size_t from, size_t to, const struct node *item)
+{
+    insert_item(e, list, to, item);
+    copy_uncertainties(e, list, from, to);
 }
 
 /* Apply changes whose paths are relative to `prefix`. */
@@ -199,9 +347,10 @@ static void apply_changes(struct edit *e, const char *prefix, const struct chang
                 remove_entry(e, &path);
             continue;
         }
-        const struct node *value = ceduo_document_parse(e->d, path, c->value);
+        const struct node *value = ceduo_document_parse(e->d, path, c->value), *before = e->root;
         bool keeps = value && old && c->kind == CHANGE_KEEP_SOURCE;
         replace_node(e, path, keeps ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);
+        drop_changed_values(e, before);
     }
 }
 
@@ -232,7 +381,9 @@ bool ceduo_changes_apply(const struct changes *c, const char *edit_name)
 bool ceduo_document_set(struct document *d, const char *path, const char *value)
 {
     struct edit e = begin_edit(d);
+    const struct node *before = e.root;
     replace_node(&e, path, ceduo_document_parse(d, path, value));
+    drop_changed_values(&e, before);
     return commit_edit(&e, path);
 }
 
@@ -287,9 +438,9 @@ bool ceduo_document_move(struct document *d, const char *list, size_t from, size
     const struct node *holder = ceduo_document_node(d, list);
     if (!holder || holder->kind != NODE_LIST || from >= holder->n || to >= holder->n || from == to)
         return true;
-    const struct node *reduced = ceduo_node_removed(e.arena, holder, from);
+    const struct node *reduced = ceduo_node_removed(e.arena, holder, from), *before = e.root;
     replace_node(&e, list, ceduo_node_inserted(e.arena, reduced, to, holder->items[from]));
-    shift_uncertainties(&e, list, from, to, 0);
+    shift_uncertainties(&e, before, list, from, to, 0);
     return commit_edit(&e, list);
 }
 
@@ -303,9 +454,9 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
     insert_item(&e, vertices_list, index + 1, ceduo_document_parse(d, vertices_list, vertex));
     if (e.root && grounds && grounds->n > 1)
-        insert_item(&e, ground_list, index + 1, grounds->items[index]);
+        insert_copy(&e, ground_list, index, index + 1, grounds->items[index]);
     for (size_t i = 1; e.root && grounds && grounds->n == 1 && vertices && split_ground && i < vertices->n; i++)
-        insert_item(&e, ground_list, i, grounds->items[0]);
+        insert_copy(&e, ground_list, 0, i, grounds->items[0]);
     return commit_edit(&e, vertices_list);
 }
 
@@ -372,13 +523,23 @@ bool ceduo_document_add_option(struct document *d, const char *stand, const char
     return commit_edit(&e, stand);
 }
 
+/* True for an item of the slope or the forest that ends at a place. */
+static bool is_stretch(const struct node *item)
+{
+    return ceduo_node_get(item, "from_m") || ceduo_node_get(item, "to_m");
+}
+
 bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const struct changes *changes)
 {
     struct edit e = begin_edit(d);
     bool options = strcmp(list, "options") == 0;
     const struct node *holder = options ? ensure_options(&e) : ceduo_document_node(d, list);
     const struct node *item = holder && holder->kind == NODE_LIST && index < holder->n ? holder->items[index] : NULL;
-    insert_item(&e, list, index + 1, item && options ? with_new_name(&e, holder, item) : item);
+    const struct node *copy = item && options ? with_new_name(&e, holder, item) : item;
+    if (options || is_stretch(copy))
+        insert_copy(&e, list, index, index + 1, copy);
+    else /* stems and rocks in addition to the others */
+        insert_item(&e, list, index + 1, copy);
     if (changes)
         apply_changes(&e, "", changes);
     return commit_edit(&e, list);
@@ -388,7 +549,7 @@ bool ceduo_document_vary_option(struct document *d, size_t index, const char *na
 {
     struct edit e = begin_edit(d);
     const struct node *options = ensure_options(&e), *item = options->items[index];
-    insert_item(&e, "options", options->n, with_new_name(&e, options, with_name(&e, item, name)));
+    insert_copy(&e, "options", index, options->n, with_new_name(&e, options, with_name(&e, item, name)));
     apply_changes(&e, ceduo_arena_format(e.arena, "options[%zu].", options->n), changes);
     return commit_edit(&e, name);
 }

@@ -33,6 +33,16 @@ bool ceduo_path_next(const char *path, size_t length, size_t *pos, struct path_s
     return true;
 }
 
+const char *ceduo_paths_next(const char **rest, size_t *n)
+{
+    const char *path = *rest + strspn(*rest, " ");
+    bool inside = false;
+    for (*n = 0; path[*n] && (inside || path[*n] != ' '); ++*n)
+        inside = path[*n] == '[' || (inside && path[*n] != ']');
+    *rest = path + *n;
+    return *n > 0 ? path : NULL;
+}
+
 bool ceduo_path_is(const struct path_step *step, const char *word)
 {
     return word && strlen(word) == step->n && memcmp(step->p, word, step->n) == 0;
@@ -120,6 +130,13 @@ const struct field *ceduo_schema_at(const char *path)
 const struct field *ceduo_schema_fitted(const char *path)
 {
     static const char ground[] = "slope.materials[";
+    const char *rest = path;
+    size_t n;
+    LOCAL_TEXT(first);
+    if (ceduo_paths_next(&rest, &n) && rest[strspn(rest, " ")]) {
+        ceduo_text_append_n(&first, path + strspn(path, " "), n);
+        path = ceduo_text_string(&first);
+    }
     const char *end = strncmp(path, ground, sizeof ground - 1) == 0 ? strchr(path, ']') : NULL;
     return end && end[1] == '.' ? ceduo_schema_field(ceduo_schema_segment(), end + 2) : ceduo_schema_at(path);
 }

@@ -21,6 +21,10 @@ struct path_step {
 /* Read the step at *pos, and advance *pos. False at the end, or if the path is malformed; *pos is unchanged then. */
 bool ceduo_path_next(const char *path, size_t length, size_t *pos, struct path_step *step);
 
+/* Return the next of several paths, which are separated by blanks; NULL: none is left. Sets *n to its length, and advances
+ * *rest. Blanks in brackets belong to a name. */
+const char *ceduo_paths_next(const char **rest, size_t *n);
+
 bool ceduo_path_is(const struct path_step *step, const char *word);
 
 /* True if a step is the index of an item; sets *index. */
@@ -171,7 +175,8 @@ const struct field *ceduo_schema_step(const struct object *object, const struct 
 
 /* Return the row of the value at a path of a scene; NULL if the path is no value, or a part of a value. */
 const struct field *ceduo_schema_at(const char *path);
-/* As ceduo_schema_at(), also for slope.materials[NAME].KEY, a fitted ground of the library. */
+/* As ceduo_schema_at(), also for slope.materials[NAME].KEY, a fitted ground of the library. Of several paths, the first
+ * counts. */
 const struct field *ceduo_schema_fitted(const char *path);
 /* As ceduo_schema_at(), also for a group or a list. */
 const struct field *ceduo_schema_row(const char *path);

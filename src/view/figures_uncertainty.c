@@ -107,8 +107,14 @@ static void report_paths(const struct ceduo_place *p, ceduo_sentence_sink *sink,
 {
     const struct ceduo_input *input = &p->uncertainty->inputs->items[p->input];
     bool own = input->places_count == 1 || strchr(input->path, '*') || strncmp(input->path, "slope.materials[", 16) == 0;
-    for (size_t i = 0; i < (own ? 1 : input->places_count); i++)
-        sink(context, own ? input->path : ceduo_input_path(p->uncertainty->file, input->places[i]));
+    size_t n;
+    for (const char *rest = input->path, *path; own && (path = ceduo_paths_next(&rest, &n));) {
+        LOCAL_TEXT(one);
+        ceduo_text_append_n(&one, path, n);
+        sink(context, ceduo_text_string(&one));
+    }
+    for (size_t i = 0; !own && i < input->places_count; i++)
+        sink(context, ceduo_input_path(p->uncertainty->file, input->places[i]));
 }
 
 VALUE(input_measured, place, TEXT, WORD(ceduo_uncertainty_measured_by(o->uncertainty, o->input)))

@@ -34,13 +34,13 @@ def test_nothing():
 
 def test_so_far():
     """While the uncertainty is computed every view's answer is preliminary, with its progress; not if it is disabled."""
-    edited = "".join(f"key 3\nfind title\nset {view}\nkey {view}\ndump\n" for view in range(1, 9))
+    edited = "".join(f"key 1\nfind controls[0].name\nset {view}\nkey {view}\ndump\n" for view in range(1, 9))
     with Place() as place:
         place.write("unsure.yaml", NO_LAW + UNCERTAINTY)
         place.write("sure.yaml", NO_LAW + "uncertainty: none\n")
         place.write("options.yaml", CUTS.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
                     + UNCERTAINTY.replace("forest[0]", "options[*].forest[0]"))
-        for scene, keys, edits in (("unsure.yaml", edited, 8), ("options.yaml", "key 3\nfind title\nset x\nkey ] 5\ndump\n", 1)):
+        for scene, keys, edits in (("unsure.yaml", edited, 8), ("options.yaml", "key 1\nfind controls[0].name\nset x\nkey ] 5\ndump\n", 1)):
             unasked, first, known, *open_, last = place.play(
                 f"wait idle\ndump\nkey 7\ndump\nwait idle\ndump\n{keys}wait idle\ndump", scene)
             for screen in (unasked, known, last):

@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from play import FAST, Place, check_good  # noqa: E402
-from harness import expect_equal, run_all  # noqa: E402
+from play import FAST, WOOD, Place, check_good  # noqa: E402
+from harness import expect_equal, expect_in, run_all  # noqa: E402
 
 UNCERTAIN = FAST + """\
 uncertainty:
@@ -25,7 +25,7 @@ def paths_after(keys):
         place.play(f"{keys}\nkey s\ndump", "uncertain.yaml")
         check_good(place.path, "uncertain.yaml")
         saved = place.text("uncertain.yaml")
-        return re.findall(r'path: "?([^",]+)"?,', saved.split("uncertainty:")[1]) if "uncertainty:" in saved else []
+        return re.findall(r'path: "?([^",\n]+)"?', saved.split("uncertainty:")[1]) if "uncertainty:" in saved else []
 
 
 ALL, STOOLS, TREE, LOWER, ROCK = re.findall(r'path: "([^"]+)"', UNCERTAIN)
@@ -41,10 +41,18 @@ def test_items_that_go():
     expect_equal(paths_after("key 2\nfind trees[0]\nkey d d"), [ALL, STOOLS, LOWER, ROCK], "all trees deleted")
 
 
+def both(path):
+    return f"{path} {path.replace('forest[0]', 'forest[1]')}"
+
+
 def test_items_that_come():
-    """Splitting a belt keeps the rows of its upper part and of later belts."""
-    expect_equal(paths_after("find forest[0]\nkey y"), [ALL, STOOLS, TREE, LOWER.replace("forest[1]", "forest[2]"), ROCK],
-                 "the upper belt split")
+    """Splitting a belt: its rows count for both parts, as one input; rows of later belts follow."""
+    expect_equal(paths_after("find forest[0]\nkey y"),
+                 [ALL, both(STOOLS), both(TREE), LOWER.replace("forest[1]", "forest[2]"), ROCK], "the upper belt split")
+    expect_equal(paths_after("find forest[1]\nkey y"),
+                 [ALL, STOOLS, TREE, f"{LOWER} {LOWER.replace('forest[1]', 'forest[2]')}", ROCK], "the lower belt split")
+    expect_equal(paths_after("find forest[0]\nkey y\nfind forest[1]\nkey d"), [ALL, STOOLS, TREE, LOWER, ROCK], "and deleted again")
+    expect_equal(paths_after("find forest[0]\nkey y u"), [ALL, STOOLS, TREE, LOWER, ROCK], "and undone")
 
 
 def test_items_that_move():
@@ -93,6 +101,49 @@ def test_options():
     expect_equal(paths_after("key 5 a\ntype large-reserves\nkey Enter"), [everywhere, *current, ROCK], "an option added")
     expect_equal(paths_after("key 5 a\ntype large-reserves\nkey Enter\nkey g d"), [everywhere, *current, ROCK],
                  "the first one deleted: its rows name it, and no other")
+
+
+def test_options_copied():
+    """A copied or treated option has the rows of its original, as one input, which follow its moves, name and edits."""
+    named = [p.replace("forest", "options[current].forest", 1) for p in (STOOLS, TREE, LOWER)]
+    everywhere = ALL.replace("forest", "options[*].forest", 1)
+
+    def rows(*options):
+        return [everywhere, *(" ".join(path.replace("[current]", f"[{o}]", 1) for o in options) for path in named), ROCK]
+    expect_equal(paths_after("key 5 y"), rows("current", 1), "copied")
+    expect_equal(paths_after("key 5 a Enter Enter"), rows("current", 1), "treated")
+    expect_equal(paths_after("key 5 y y"), rows("current", 1, 2), "copied twice")
+    expect_equal(paths_after("key 5 y <"), rows("current", 0), "the copy moved up")
+    expect_equal(paths_after("key 5 y d"), rows("current"), "the copy deleted")
+    expect_equal(paths_after("key 5 y g d"), rows(0), "the original deleted")
+    expect_equal(paths_after("key 5 y g Enter Ctrl-U\ntype now\nkey Enter"), rows(0, 1), "the original renamed")
+    expect_equal(paths_after("key 5 y u"), [ALL, STOOLS, TREE, LOWER, ROCK], "undone")
+    split = rows("current", 1)
+    split[1:3] = [f"{path} {path.split()[1].replace('forest[0]', 'forest[1]')}" for path in split[1:3]]
+    split[3] = LOWER.replace("forest", "options[current].forest") + " options[1]." + LOWER.replace("[1]", "[2]")
+    expect_equal(paths_after("key 5 y 1\nfind forest[0]\nkey y"), split, "a belt of the copy split")
+    changed = rows("current", 1)
+    changed[1] = named[0]
+    expect_equal(paths_after("key 5 y 2\nfind stools.per_ha\nset 2000"), changed, "another value in the copy")
+
+
+def test_equal_options():
+    """Copied options are equal in all plausible cases, in the saved file, too; a split belt has the same range."""
+    with Place() as place:
+        place.write("uncertain.yaml", WOOD + """uncertainty:
+  - {path: "forest[0].stand.energy.u_J_m3", lo: 50000, hi: 200000}
+  - {path: "forest[0].stand.stools.per_ha", lo: 1500, hi: 3000}
+""")
+        (plain,) = place.play("resize 120 40\nkey 7\nwait idle\ndump", "uncertain.yaml")
+        (split,) = place.play("resize 120 40\nkey 1\nfind forest[0]\nkey y 7\nwait idle\ndump", "uncertain.yaml")
+        copied, _ = place.play("resize 120 40\nkey 5 y 7\nwait idle\ndump\nkey s\ndump", "uncertain.yaml")
+        (again,) = place.play("resize 120 40\nkey 7\nwait idle\ndump", "uncertain.yaml")
+    band = re.compile(r"^current.* (\d+\u2013\d+)$", re.M)
+    (only,), (parts,) = band.findall(plain.body), band.findall(split.body)
+    expect_equal(parts, only, "the belt split")
+    for screen in (copied, again):
+        expect_equal(band.findall(screen.body), [only, only], "the options")
+        expect_in("equal in 100 %", " ".join(screen.body.split()))
 
 
 def test_stand_replaced():
