@@ -36,10 +36,24 @@ static bool submit_field(struct app *app, struct popup *p)
     return !cell || (ceduo_popup_confirm_unusual(app, cell->field, line) && set_cell_value(app, cell, line->text));
 }
 
+static void report_no_item(struct app *app)
+{
+    ceduo_app_show_message(app, "%s", _("put the cursor on an item of a list first"));
+}
+
+/* Return the cell under the cursor of the form; NULL, with a message, if there is none or if the keys act on a picture. */
+static struct form_cell *find_cell(struct app *app)
+{
+    struct form_cell *cell = ceduo_app_state(app)->pane == 0 ? ceduo_form_cell(ceduo_app_form(app)) : NULL;
+    if (!cell)
+        report_no_item(app);
+    return cell;
+}
+
 /* Edit the whole value: the form may show it shortened or in words. */
 void ceduo_edit_start(struct app *app)
 {
-    struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
+    struct form_cell *cell = find_cell(app);
     if (!cell)
         return;
     if (cell->field->type == FIELD_CHOICE || (cell->field->flags & FIELD_FOLLOWS)) {
@@ -64,8 +78,10 @@ void ceduo_edit_start(struct app *app)
 
 void ceduo_edit_step(struct app *app, int direction)
 {
-    struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
+    struct form_cell *cell = find_cell(app);
     LOCAL_TEXT(value);
+    if (!cell)
+        return;
     if (!ceduo_form_step(ceduo_app_form(app), direction, &value) || !value.bytes)
         ceduo_app_show_message(app, "%s", _("this field has no steps; Enter edits it"));
     else if (strcmp(value.bytes, cell->text) == 0)
@@ -99,7 +115,7 @@ static bool find_item(struct app *app, struct item *item, bool exists)
     const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
     bool has_item = row && row->list[0] && ceduo_app_state(app)->pane == 0;
     if (!has_item || (exists && row->n == 0)) {
-        ceduo_app_show_message(app, "%s", _("put the cursor on an item of a list first"));
+        report_no_item(app);
         return false;
     }
     *item = make_item(app, row->list, row->index);

@@ -5,8 +5,9 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import play  # noqa: E402
 from play import Place, fast  # noqa: E402
-from harness import expect_equal, expect_in, run_all  # noqa: E402
+from harness import expect, expect_equal, expect_in, run_all  # noqa: E402
 
 THRESHOLD = 3, "simulation.threshold_m", "^threshold"
 ROCKS = 3, "simulation.rocks", r"^rocks \(batch\)"
@@ -45,6 +46,17 @@ def test_centimetres():
         with Place() as place:
             place.play(f"key 2\nfind trees[0].dbh_m\nset {start}\nkey {keys}\nkey s\nwait idle\ndump")
             expect_in(f"per_ha: 80, dbh_m: {metres},", place.text("fast.yaml"))
+
+
+def test_picture():
+    """A picture hides the field under the cursor: no key changes or opens it there"""
+    for view, field in ((1, "controls[1].accepted_kJ"), (6, "minimum.reserves_per_ha")):
+        with Place() as place:
+            screens = place.play(f"key {view}\nwait idle\nfind {field}\nkey Tab\n" + "".join(f"key {key}\ndump\n" for key in "+-=_") + "key Enter\ndump\nkey s\ndump")
+            for screen in screens[:-1]:
+                expect_equal(screen.note, "put the cursor on an item of a list first", f"view {view}")
+                expect("Esc cancel" not in screen.bar and "* fast" not in screen.title, "a hidden field was opened", screen)
+            expect_equal(place.text("fast.yaml"), play.FAST, f"the file, edited in the picture of view {view}")
 
 
 if __name__ == "__main__":
