@@ -245,6 +245,7 @@ size_t ceduo_items_find_segment(const struct app *app, double x_written);
 
 /* Draw the screen on app->cells (screen.c). */
 void ceduo_screen_draw(struct app *app);
+bool ceduo_screen_is_too_small(const struct app *app); /* true: only the needed size is drawn */
 
 /* Draw the text of the tour below the screen, if one is played (tour.c). */
 void ceduo_tour_draw(struct app *app);

@@ -264,10 +264,17 @@ static void end_input(struct app *app)
         ceduo_views[app->view]->after_key(app);
 }
 
+/* True if a key has an effect in a window that is too small: it ends the tour, or it quits without a question. */
+static bool ends_unseen(const struct app *app, int key)
+{
+    return app->tour.step ? ceduo_tour_is_end(key)
+                          : ceduo_action_find(key) == ACTION_QUIT && !ceduo_document_unsaved(&app->document);
+}
+
 void ceduo_program_key(struct app *app, int key)
 {
-    bool first = app->plain && !app->popup && !app->tour.step;
-    if (app->tour.step && !ceduo_tour_accepts(app, key))
+    bool first = app->plain && !app->popup && !app->tour.step, too_small = ceduo_screen_is_too_small(app);
+    if ((too_small && !ends_unseen(app, key)) || (app->tour.step && !ceduo_tour_accepts(app, key)))
         return;
     begin_input(app);
     app->plain &= !first;
@@ -276,15 +283,22 @@ void ceduo_program_key(struct app *app, int key)
     enum action action = ceduo_action_find(key);
     if (first && action == ACTION_THEME)
         ceduo_tour_start(app, NULL);
-    else if (app->popup && key != K_NONE)
+    else if (app->popup && !too_small && key != K_NONE)
         ceduo_popup_key(app, key);
     else if (action != ACTION_NONE)
         run_action(app, action);
     end_input(app);
 }
 
+void ceduo_program_interrupt(struct app *app)
+{
+    ceduo_program_key(app, app->popup && !ceduo_screen_is_too_small(app) ? K_ESCAPE : 'q');
+}
+
 void ceduo_program_paste(struct app *app, const char *text)
 {
+    if (ceduo_screen_is_too_small(app))
+        return;
     begin_input(app);
     app->message[0] = '\0'; /* also the message of a popup */
     if (app->tour.step)

@@ -9,7 +9,9 @@
 /* As ceduo_app_create(); also offers abandoned work. */
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery);
 
+/* In a window that is too small for the screen, only keys that end the program or the tour without a question act. */
 void ceduo_program_key(struct app *app, int key);
+void ceduo_program_interrupt(struct app *app); /* Ctrl-C: leaves a popup, or quits */
 void ceduo_program_paste(struct app *app, const char *text); /* into the open input line; otherwise ignored */
 void ceduo_program_click(struct app *app, int x, int y);
 void ceduo_program_wheel(struct app *app, int x, int y, int lines);
@@ -19,6 +21,7 @@ bool ceduo_program_poll(struct app *app); /* take the results of the jobs; retur
 void ceduo_tour_start(struct app *app, const char *path);
 
 /* True if a key has an effect in the tour. Handle it, and return the key that the program handles; K_NONE: none. */
+bool ceduo_tour_is_end(int key); /* true if a key ends the tour */
 bool ceduo_tour_accepts(const struct app *app, int key);
 int ceduo_tour_key(struct app *app, int key);
 

@@ -344,17 +344,32 @@ static void draw_column(struct app *app, struct ceduo_area area, bool titled)
     ceduo_page_free(&page);
 }
 
+bool ceduo_screen_is_too_small(const struct app *app)
+{
+    return app->width < WIDTH_MIN || app->height < HEIGHT_MIN;
+}
+
+/* Draw the needed size and the effect of q in place of the screen. */
+static void draw_size(struct app *app)
+{
+    struct ceduo_area whole = {0, 0, app->width, app->cells->height};
+    LOCAL_TEXT(text);
+    ceduo_text_format(&text, _("The window (%d x %d) is too small: at least %d x %d is needed."), app->width,
+                      app->cells->height, WIDTH_MIN, HEIGHT_MIN + app->cells->height - app->height);
+    ceduo_text_format(&text, " %s",
+                      app->tour.step                          ? _("q ends the tour.")
+                      : ceduo_document_unsaved(&app->document) ? _("Unsaved changes: enlarge the window to quit.")
+                                                               : _("q quits."));
+    ceduo_app_draw_wrapped(app, whole, CEDUO_ROLE_WARN, ceduo_text_string(&text), 0);
+}
+
 void ceduo_screen_draw(struct app *app)
 {
     ceduo_cells_clear(app->cells);
     app->pictures_count = app->hits_count = 0;
     app->drawn = true;
-    if (app->width < WIDTH_MIN || app->height < HEIGHT_MIN) {
-        struct ceduo_area whole = {0, 0, app->width, app->cells->height};
-        const char *text =
-            ceduo_app_format(app, _("The window (%d x %d) is too small: at least %d x %d is needed. q quits."), app->width,
-                             app->cells->height, WIDTH_MIN, HEIGHT_MIN + app->cells->height - app->height);
-        ceduo_app_draw_wrapped(app, whole, CEDUO_ROLE_WARN, text, 0);
+    if (ceduo_screen_is_too_small(app)) {
+        draw_size(app);
         return;
     }
     int side = app->width >= 140 ? 44 : app->width >= 100 ? 36 : 28;

@@ -426,7 +426,7 @@ static void run_loop(struct app *app, bool colours)
             break; /* the window was closed */
         if (interrupted) {
             interrupted = 0;
-            ceduo_program_key(app, app->popup ? K_ESCAPE : 'q');
+            ceduo_program_interrupt(app);
         }
         if (suspended)
             suspend_program();

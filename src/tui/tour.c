@@ -134,15 +134,14 @@ void ceduo_tour_start(struct app *app, const char *path)
     fit_height(app);
 }
 
-/* True if a key ends the tour. */
-static bool is_end(int key)
+bool ceduo_tour_is_end(int key)
 {
     return key == K_ESCAPE || ceduo_action_find(key) == ACTION_QUIT;
 }
 
 bool ceduo_tour_accepts(const struct app *app, int key)
 {
-    return is_end(key) || key == ' ' || key == K_ENTER || key == ceduo_key_find(next_name(app));
+    return ceduo_tour_is_end(key) || key == ' ' || key == K_ENTER || key == ceduo_key_find(next_name(app));
 }
 
 int ceduo_tour_key(struct app *app, int key)
@@ -150,7 +149,7 @@ int ceduo_tour_key(struct app *app, int key)
     struct tour *tour = &app->tour;
     const char *name = next_name(app);
     int wanted = ceduo_key_find(name);
-    if (is_end(key)) {
+    if (ceduo_tour_is_end(key)) {
         end_tour(app);
         return K_NONE;
     }

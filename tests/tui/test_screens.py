@@ -368,6 +368,25 @@ def test_too_small():
     screens[5].whole().has("Belts of forest")
 
 
+def test_keys_in_a_small_window():
+    """Below 60 x 16 no key acts unseen; q ends the program, but not with unsaved changes"""
+    unseen = "resize 40 10\nkey 1 2 d a y u p + - Enter Tab n o s S w : / Esc\ntype dn\n"
+    with Place() as place:
+        for opened, words in (("", "q quits."), ("key Enter\n", "q quits."), ("key ?\n", "q quits."), ("key o\n", "q quits."),
+                              ("key +\n", "Unsaved changes: enlarge the window to quit."),
+                              ("key + q\n", "Unsaved changes: enlarge the window to quit.")):
+            script = f"key 2 /\ntype stools.per_ha\nkey Enter\nwait idle\n{opened}wait idle\n"
+            if "Unsaved" in words:
+                unseen += "key q F10\n"
+            before, small, after = place.play(f"{script}dump\n{unseen}dump\nresize 80 24\ndump")
+            small.has("The window (40 x 10) is too small", words)
+            expect_equal(str(after), str(before), f"after {opened!r} and keys in a small window")
+            ended = run_script(place.path, f"{script}resize 40 10\nkey q\ndump after.txt\n", "fast.yaml")
+            expect_equal(ended.status, DONE)
+            expect_equal((place.path / "after.txt").exists(), "Unsaved" in words, f"not ended by q after {opened!r}")
+        expect_equal(place.text("fast.yaml"), FAST, "the file")
+
+
 def check_smallest(view):
     if "smallest" not in _seen:
         script = "wait idle\nresize 60 16\n" + "".join(f"key {v + 1}\ndump\n" for v in range(len(VIEWS)))

@@ -254,8 +254,10 @@ def test_resizes():
         expect(not has_ended(pid), "the program ended on a resize")
         t.tmux("resize-window", "-x", "59", "-y", "15")
         t.sees("The window (59 x 15) is too small: at least 60 x 16 is")
-        t.keys("1")
+        t.keys("d1")  # nothing acts unseen
         t.tmux("resize-window", "-x", "120", "-y", "40")
+        t.sees("option")
+        t.keys("1")
         screen = t.sees("Belts of forest", "underside above the ground", "w export")
         lines = screen.split("\n")
         expect_equal(len(lines), 41, "lines")
