@@ -58,13 +58,18 @@ static const struct field *find_field(struct app *app, const char *path, const c
     return f && f->shown.label ? f : NULL;
 }
 
-/* Show the first of a list of problems, without its place, which the cursor shows. Keys have the names of the form. */
-static void show_first_problem(struct app *app, const struct problem_list *list)
+/* Show the first of a list of problems. Keys have the names of the form. `in_file`: name its place in a file that was not
+ * opened; otherwise the cursor shows the place. */
+static void show_first_problem(struct app *app, const struct problem_list *list, bool in_file)
 {
     const struct problem *p = list->items;
     LOCAL_TEXT(text);
     if (list->n == 0)
         return;
+    if (in_file)
+        ceduo_text_format(&text, "%s ", _("nothing was opened:"));
+    if (in_file && p->place[0])
+        ceduo_text_format(&text, "%s: ", p->place);
     const char *words = ceduo_app_path(app, p->path), *from = p->message, *end;
     const struct field *place = strcmp(words, p->path) == 0 ? find_field(app, p->path, NULL, 0) : NULL;
     ceduo_text_format(&text, "%s%s", place ? _(place->shown.label) : words, p->path[0] ? ": " : "");
@@ -253,7 +258,7 @@ void ceduo_app_sync_belt(struct app *app)
 bool ceduo_app_finish_edit(struct app *app, bool good)
 {
     if (!good)
-        show_first_problem(app, &app->document.problems.wrong);
+        show_first_problem(app, &app->document.problems.wrong, false);
     else
         ceduo_app_refresh(app);
     return good;
@@ -305,7 +310,7 @@ static bool replace_document(struct app *app, struct document *next, unsigned th
         state->private_state = ceduo_check_memory(calloc(1, ceduo_views[v]->private_size + 1));
     }
     ceduo_app_show(app, app->view);
-    show_first_problem(app, &app->document.problems.unusual);
+    show_first_problem(app, &app->document.problems.unusual, false);
     return true;
 }
 
@@ -345,7 +350,7 @@ bool ceduo_app_open(struct app *app, const char *path, const char *text)
     struct document next;
     bool good = path ? ceduo_document_open(&next, path, NULL, 0) : ceduo_document_new(&next, text);
     if (!good) {
-        show_first_problem(app, &next.problems.wrong);
+        show_first_problem(app, &next.problems.wrong, path != NULL);
         ceduo_document_close(&next);
     } else if (!replace_document(app, &next, app->live.threads)) {
         ceduo_app_warn(app, "%s", _("out of memory"));

@@ -193,6 +193,19 @@ def test_open():
     expect_in("No such file", screens[4].note)
 
 
+def test_open_broken():
+    """A scene whose stand is wrong is not opened: the message names file, line and column; scene and cursor stay"""
+    stand = "ceduo: stand/1\nname: upper\nshoots:\n  - {per_ha: 9000, dbh_m: zero, height_m: 7}\n"
+    with Place() as place:
+        scene = place.text("fast.yaml")
+        place.write("wrong.yaml", stand)
+        place.write("broken.yaml", scene[:scene.index("forest:")] + "forest: [{from_m: 5, to_m: 45, stand: wrong.yaml}]\n")
+        for view in (1, 3):
+            before, after = place.play(f"key {view} Down Down\nwait idle\ndump\nkey o\ntype broken.yaml\nkey Enter\ndump")
+            expect_equal(after.note, "nothing was opened: wrong.yaml:4:27: diameter, cm: 'zero' is not a number")
+            expect_equal((after.title, after.body), (before.title, before.body), "the old scene")
+
+
 def test_unsaved():
     """o, n and q ask equally about unsaved work: stay, save and continue, discard and continue."""
     edit = "key 3\nfind title\nset other\n"
