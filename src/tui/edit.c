@@ -10,11 +10,23 @@
 #include "scene/slope.h"
 #include "view/value_text.h"
 
+/* Return the path of the value that a cell shows: for a text with an Italian translation, the translation in Italian. The path
+ * is a copy, because an edit rebuilds the form. */
+static const char *shown_path(const struct app *app, const struct form_cell *cell)
+{
+    const char *path = ceduo_app_format(app, "%s", cell->path), *italian = ceduo_app_format(app, "%s_it", path);
+    bool has_both = cell->field->type == FIELD_TEXT && cell->given && ceduo_document_node(&app->document, italian);
+    return has_both ? ceduo_in_language(path, italian) : path;
+}
+
 static bool set_cell_value(struct app *app, const struct form_cell *cell, const char *value)
 {
     const struct field *field = cell->field;
-    const char *path = ceduo_app_format(app, "%s", cell->path); /* copy the path: an edit rebuilds the form */
+    const char *path = shown_path(app, cell);
+    const struct node *node = ceduo_document_node(&app->document, path);
     LOCAL_TEXT(written);
+    if (field->type == FIELD_TEXT && strcmp(value, node && node->kind == NODE_SCALAR ? node->text : cell->written) == 0)
+        return true; /* an unchanged text is no edit */
     if (value[0] == '\0') /* empty: back to the default */
         return ceduo_app_finish_edit(app, ceduo_document_delete(&app->document, path));
     if (field->type == FIELD_TEXT || field->type == FIELD_FILE)
@@ -60,7 +72,7 @@ void ceduo_edit_start(struct app *app)
         ceduo_popup_list_choices(app, cell);
         return;
     }
-    const struct node *node = ceduo_document_node(&app->document, cell->path);
+    const struct node *node = ceduo_document_node(&app->document, shown_path(app, cell));
     LOCAL_TEXT(text);
     bool plain = node && node->kind == NODE_LIST; /* a list of scalars, with blanks */
     for (size_t i = 0; plain && i < node->n; i++)

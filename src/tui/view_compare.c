@@ -173,9 +173,17 @@ static void move_option(struct app *app, int step)
         select_option(app, (long)to);
 }
 
+/* Rename the option. An unchanged name is no edit. In Italian only its Italian name changes, if it has one. */
 static bool submit_option_name(struct app *app, struct popup *p)
 {
-    return ceduo_app_finish_edit(app, ceduo_document_rename_option(&app->document, app->option, p->fields[0].line.text));
+    const char *name = p->fields[0].line.text;
+    const char *italian = ceduo_app_format(app, "options[%zu].name_it", app->option);
+    if (strcmp(name, ceduo_app_option(app)->name) == 0)
+        return true;
+    if (ceduo_document_node(&app->document, italian) && ceduo_in_language(NULL, italian))
+        return name[0] ? ceduo_app_set(app, italian, ceduo_app_scalar(app, name))
+                       : ceduo_app_finish_edit(app, ceduo_document_delete(&app->document, italian));
+    return ceduo_app_finish_edit(app, ceduo_document_rename_option(&app->document, app->option, name));
 }
 
 static void rename_option(struct app *app)
