@@ -29,8 +29,11 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option)
     else if (kind == CEDUO_WINDOW_CONSTANT && !standing)
         ceduo_text_format(text, _("'%s' does not change: it has no stems."), NAME_OF(option));
     else if (kind == CEDUO_WINDOW_CONSTANT)
-        ceduo_text_format(text, _("'%s' does not change: stand '%s' has no growth and cutting data."), NAME_OF(option),
-                          NAME_OF(standing));
+        ceduo_text_format(text,
+                          standing->stand.cutting.rotation > 0
+                              ? _("'%s' does not change: stand '%s' has no growth data for its stems.")
+                              : _("'%s' does not change: stand '%s' has no growth and cutting data."),
+                          NAME_OF(option), NAME_OF(standing));
 }
 
 void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_sentence_sink *sink, void *context)

@@ -372,4 +372,8 @@ TEST(reasons_for_no_rotation)
     assert_string_equal(ceduo_text_string(&text), "'a' does not change: it has no stems.\n"
                                                   "'b' does not change: stand 'old stand' has no growth and cutting data.\n"
                                                   "'c' grows and is never cut.\n");
+    ceduo_text_free(&text);
+    belts[0].stand.cutting.rotation = 25;
+    ceduo_words_window(&text, &options[1]);
+    assert_string_equal(ceduo_text_string(&text), "'b' does not change: stand 'old stand' has no growth data for its stems.");
 }
