@@ -153,6 +153,8 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *bad
         if (!(scene->controls[i].x > last))
             return CEDUO_CONTROL_BEHIND;
     }
+    if (scene->year_last < scene->year_first) /* NaN: not given */
+        return CEDUO_BAD_ARGUMENT;
     status = check_options(scene);
     const struct object *root = ceduo_schema_scene();
     for (size_t i = 0; i < root->n && status == CEDUO_OK; i++) {

@@ -516,6 +516,12 @@ TEST(missing_lists_are_refused)
         memcpy(pointers[i], &was, sizeof was);
         EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_OK);
     }
+    s->year_first = 24;
+    EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_OK);
+    s->year_last = 4; /* before the first */
+    EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_BAD_ARGUMENT);
+    s->year_last = 24;
+    EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_OK);
     blocks.volumes = NULL;
     EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_BAD_ROCK);
 }

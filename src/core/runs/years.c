@@ -79,7 +79,7 @@ struct ceduo_window ceduo_scene_window(const struct ceduo_scene *scene)
         return w;
     unsigned period = w.last - w.first;
     w.kind = CEDUO_WINDOW_GIVEN;
-    w.first = isnan(first) ? w.first : (unsigned)first;
+    w.first = !isnan(first) ? (unsigned)first : last < w.first ? (unsigned)last : w.first;
     w.last = isnan(last) ? w.first + period : (unsigned)last;
     w.last = w.last < w.first ? w.first : w.last;
     return ceduo_window_thinned(w, CEDUO_YEARS_MAX);
