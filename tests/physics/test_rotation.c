@@ -267,6 +267,34 @@ TEST_WITH(the_years_of_cuts, fresh, NULL)
     assert_false(ceduo_stand_is_cut_year(stand, 0, 0));
 }
 
+TEST_WITH(the_datum_that_a_cut_lacks, fresh, NULL)
+{
+    const struct ceduo_growth whole = s.stand.growth;
+    EXPECT(ceduo_cut_lack(&s.stand, NAN), ==, CUT_LACKS_NOTHING);
+    s.stand.growth.shoots_old = 0;
+    EXPECT(ceduo_cut_lack(&s.stand, 3), ==, CUT_LACKS_SHOOTS);
+    s.stand.growth = whole;
+    s.stand.growth.shoots.dbh_max = 0;
+    EXPECT(ceduo_cut_lack(&s.stand, 3), ==, CUT_LACKS_SHOOTS);
+    s.stand.stools_per_ha = 0; /* only trees */
+    s.stand.shoots_count = 0;
+    EXPECT(ceduo_cut_lack(&s.stand, 3), ==, CUT_LACKS_NOTHING);
+    s.stand.growth.trees.dbh_max = 0;
+    EXPECT(ceduo_cut_lack(&s.stand, 3), ==, CUT_LACKS_TREES);
+    s.stay[0] = s.stay[1] = 0;
+    EXPECT(ceduo_cut_lack(&s.stand, 3), ==, CUT_LACKS_NOTHING);
+    EXPECT(ceduo_cut_lack(&s.stand, NAN), ==, CUT_LACKS_AGE);
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), CEDUO_NEVER);
+    s.trees[0].age = 20;
+    EXPECT(ceduo_cut_lack(&s.stand, NAN), ==, CUT_LACKS_NOTHING);
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), 5);
+    s.stand.trees_count = 0; /* nothing to cut */
+    EXPECT(ceduo_cut_lack(&s.stand, NAN), ==, CUT_LACKS_NOTHING);
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), CEDUO_NEVER);
+    s.stand.cutting.rotation = 0;
+    EXPECT(ceduo_cut_lack(&s.stand, 3), ==, CUT_LACKS_CUTTING);
+}
+
 TEST_WITH(by_default_a_stand_is_cut_at_rotation_age, fresh, NULL)
 {
     /* 5 cm: 17.03 years */

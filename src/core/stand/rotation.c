@@ -149,13 +149,26 @@ static double oldest_age(const struct ceduo_stems *stems, size_t n, const struct
     return age;
 }
 
+enum cut_lack ceduo_cut_lack(const struct ceduo_stand *stand, double first_cut)
+{
+    const struct ceduo_growth *g = &stand->growth;
+    bool stools = stand->stools_per_ha > 0;
+    if (!(stand->cutting.rotation > 0))
+        return CUT_LACKS_CUTTING;
+    if (stools && !(is_known(&g->shoots) && g->shoots_old > 0)) /* the growth after a cut is unknown */
+        return CUT_LACKS_SHOOTS;
+    if (oldest_retained(&stand->cutting) > 0 && !is_known(&g->trees))
+        return CUT_LACKS_TREES;
+    if (isnan(first_cut) && !stools && stand->trees_count > 0 && isnan(oldest_age(stand->trees, stand->trees_count, &g->trees)))
+        return CUT_LACKS_AGE;
+    return CUT_LACKS_NOTHING;
+}
+
 unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut)
 {
     const struct ceduo_growth *g = &stand->growth;
     double rotation = stand->cutting.rotation;
-    bool shoots_known = !(stand->stools_per_ha > 0) || (is_known(&g->shoots) && g->shoots_old > 0);
-    bool trees_known = oldest_retained(&stand->cutting) == 0 || is_known(&g->trees);
-    if (!(rotation > 0) || !shoots_known || !trees_known) /* the growth after a cut is unknown */
+    if (ceduo_cut_lack(stand, first_cut) != CUT_LACKS_NOTHING)
         return CEDUO_NEVER;
     if (isnan(first_cut)) { /* at the end of the rotation, by the maximum age */
         bool sprouts = ceduo_stand_sprouts(stand), coppice = ceduo_stand_has_shoots(stand) || sprouts;

@@ -33,6 +33,11 @@ struct ceduo_curve_comparison ceduo_stems_compare_to_curve(const struct ceduo_st
 bool ceduo_stand_sprouts(const struct ceduo_stand *stand);
 bool ceduo_stand_grows(const struct ceduo_stand *stand);
 
+/* First datum without which the cuts of a stand cannot be computed. SHOOTS: growth.shoots with growth.shoots_old. AGE: growth
+ * of the trees, their age or a cut year. */
+enum cut_lack { CUT_LACKS_NOTHING, CUT_LACKS_CUTTING, CUT_LACKS_SHOOTS, CUT_LACKS_TREES, CUT_LACKS_AGE };
+enum cut_lack ceduo_cut_lack(const struct ceduo_stand *stand, double first_cut);
+
 /* Return the year >= 0 of the first cut of the inventory, or CEDUO_NEVER. `first_cut`: as in ceduo_stand_at(). */
 unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut);
 
