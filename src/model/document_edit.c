@@ -494,7 +494,7 @@ static const struct node *ensure_options(struct edit *e)
     return options;
 }
 
-void ceduo_document_append_belts(const struct document *d, const char *stand, struct text *yaml)
+void ceduo_document_append_belts(const struct document *d, const char *stand, bool cut_years, struct text *yaml)
 {
     const struct ceduo_scene *s = &d->file.scene;
     size_t n = s->options[0].belts_count;
@@ -502,7 +502,7 @@ void ceduo_document_append_belts(const struct document *d, const char *stand, st
     const struct ceduo_belt *belts = n > 0 ? s->options[0].belts : &none;
     for (size_t i = 0; i == 0 || i < n; i++) {
         ceduo_text_format(yaml, "%s{from_m: %.10g, to_m: %.10g, ", i ? ", " : "[", belts[i].from_given, belts[i].to_given);
-        if (!isnan(belts[i].cut_year))
+        if (cut_years && !isnan(belts[i].cut_year))
             ceduo_text_format(yaml, "cut_year: %.10g, ", belts[i].cut_year);
         ceduo_text_append(yaml, "stand: ");
         ceduo_emit_scalar(yaml, stand, true);
@@ -511,16 +511,21 @@ void ceduo_document_append_belts(const struct document *d, const char *stand, st
     ceduo_text_append_char(yaml, ']');
 }
 
-bool ceduo_document_add_option(struct document *d, const char *stand, const char *name)
+static bool append_option(struct document *d, const char *stand, const char *name, bool cut_years)
 {
     struct edit e = begin_edit(d);
     LOCAL_TEXT(yaml);
     ceduo_text_append(&yaml, "{name: new, forest: ");
-    ceduo_document_append_belts(d, stand, &yaml);
+    ceduo_document_append_belts(d, stand, cut_years, &yaml);
     ceduo_text_append_char(&yaml, '}');
     const struct node *item = ceduo_document_parse(d, "options", yaml.bytes), *list = ensure_options(&e);
     insert_item(&e, "options", list->n, item ? with_new_name(&e, list, with_name(&e, item, name)) : NULL);
     return commit_edit(&e, stand);
+}
+
+bool ceduo_document_add_option(struct document *d, const char *stand, const char *name)
+{
+    return append_option(d, stand, name, true) || append_option(d, stand, name, false); /* a stand without cutting */
 }
 
 /* True for an item of the slope or the forest that ends at a place. */

@@ -282,6 +282,15 @@ static void keep_one_of_all(struct follow *f)
             drop_entry(f, map, rock_keys[sphere][i]);
 }
 
+/* Remove the cut year of a belt whose stand is replaced. Return false if there is none. */
+static bool drop_cut_year(struct follow *f)
+{
+    bool stand = strcmp(f->key, "stand") == 0 && ends_in(f->list, "forest");
+    if (stand)
+        drop_entry(f, ceduo_arena_format(f->arena, "%s[%zu]", f->list, f->index), "cut_year");
+    return stand && f->removed.length > 0;
+}
+
 bool ceduo_document_set_and_follow(struct document *d, const char *path, const char *value, struct text *notes)
 {
     struct follow f = {.d = d, .arena = &d->file.arena, .path = path, .value = value, .changes = {.document = d}};
@@ -300,13 +309,15 @@ bool ceduo_document_set_and_follow(struct document *d, const char *path, const c
     follow_border(&f);
     follow_stand(&f);
     ceduo_changes_set(&f.changes, path, "%s", value);
+    bool good = f.refused.length == 0 && ceduo_changes_apply(&f.changes, path);
+    if (!good && f.refused.length == 0 && drop_cut_year(&f)) /* the new stand may have no cutting */
+        good = ceduo_changes_apply(&f.changes, path);
     if (f.filled.length)
         ceduo_text_format(notes, _("set for the same volume: %s"), f.filled.bytes);
     if (f.removed.length)
         ceduo_text_format(notes, _("%sremoved: %s"), notes->length ? "; " : "", f.removed.bytes);
     if (f.followed.length)
         ceduo_text_format(notes, "%s%s", notes->length ? "; " : "", f.followed.bytes);
-    bool good = f.refused.length == 0 && ceduo_changes_apply(&f.changes, path);
     if (f.refused.length > 0)
         ceduo_problem(&d->problems, &(struct source){.name = path, .is_option = true}, 0, 0, "%s", f.refused.bytes);
     ceduo_text_free(&f.filled);

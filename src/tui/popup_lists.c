@@ -138,10 +138,17 @@ static void append_effect(struct app *app, struct popup *p)
     }
     ceduo_text_append(&p->text, _("the lights: computing …\n"));
     bool every_belt = p->on_select == select_new_option; /* the stand in every belt */
+    const char *path = p->target, *yaml = ceduo_app_scalar(app, p->value);
+    const char *end = strstr(path, "].stand");
+    const struct ceduo_belt *belt = end && !end[strlen("].stand")] ? ceduo_input_belt(&app->document.file.scene, path) : NULL;
     if (every_belt)
-        ceduo_document_append_belts(&app->document, p->value, &value);
-    const char *path = every_belt ? ceduo_app_forest(app) : p->target,
-               *yaml = every_belt ? value.bytes : ceduo_app_scalar(app, p->value);
+        ceduo_document_append_belts(&app->document, p->value, false, &value);
+    else if (belt) /* today's lights, for stands without cutting, too */
+        ceduo_text_format(&value, "{from_m: %.10g, to_m: %.10g, stand: %s}", belt->from_given, belt->to_given, yaml);
+    if (every_belt || belt) {
+        path = every_belt ? ceduo_app_forest(app) : ceduo_app_format(app, "%.*s]", (int)(end - path), path);
+        yaml = value.bytes;
+    }
     if (strlen(yaml) < JOB_TEXT)
         ceduo_jobs_request(app->live.jobs,
                            &(struct job_request){JOB_PREVIEW, &app->document.file, app->option, 1, path, yaml, NULL, NULL});

@@ -103,15 +103,20 @@ static void set_lent(struct plan *p, size_t belt, const struct lender *l, const 
     ceduo_changes_add(&p->edits, CHANGE_SET, ceduo_app_format(p->app, "forest[%zu].stand.%s", belt, key), value.bytes);
 }
 
-static void report_lent(struct plan *p, const char *stand, const struct lender *l, bool growth, bool cutting)
+/* Append a sentence once. */
+static void add_borrowed(struct plan *p, const char *sentence)
 {
-    const char *sentence = ceduo_app_format(p->app,
-                                            growth && cutting ? _("Growth and cutting of '%s' are those of '%s' (assumed).")
-                                            : growth          ? _("The growth of '%s' is that of '%s' (assumed).")
-                                                              : _("The cutting of '%s' is that of '%s' (assumed)."),
-                                            stand, lent_belt(l)->name);
     if (!strstr(ceduo_text_string(&p->borrowed), sentence))
         ceduo_text_append_joined(&p->borrowed, p->borrowed.length > 0 ? " " : "", "%s", sentence);
+}
+
+static void report_lent(struct plan *p, const char *stand, const struct lender *l, bool growth, bool cutting)
+{
+    add_borrowed(p, ceduo_app_format(p->app,
+                                     growth && cutting ? _("Growth and cutting of '%s' are those of '%s' (assumed).")
+                                     : growth          ? _("The growth of '%s' is that of '%s' (assumed).")
+                                                       : _("The cutting of '%s' is that of '%s' (assumed)."),
+                                     stand, lent_belt(l)->name));
 }
 
 /* Set the retained standards, with the ages of `model` in proportion. Without ages all are one rotation old. */
@@ -131,6 +136,15 @@ static void keep_standards(struct plan *p, size_t belt, const struct ceduo_stand
     ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "forest[%zu].stand.cutting.stay_per_ha", belt), "[%s]", list.bytes);
 }
 
+/* Return the first growth that cuts which leave trees lack. */
+static enum cut_lack find_lack(const struct ceduo_stand *stand)
+{
+    struct ceduo_stand cut = *stand;
+    double one = 1;
+    cut.cutting = (struct ceduo_cutting){.rotation = 1, .retained_count = 1, .stay_per_ha = &one};
+    return ceduo_cut_lack(&cut, FIRST_YEAR);
+}
+
 static void leave_belt(struct plan *p, size_t belt, const char *reason)
 {
     ceduo_text_append_joined(&p->untreated, p->untreated.length > 0 ? " " : "", _("Belt %zu is unchanged: %s."), belt + 1,
@@ -140,9 +154,12 @@ static void leave_belt(struct plan *p, size_t belt, const char *reason)
 static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
 {
     const struct ceduo_stand *s = &belt->stand;
-    bool stools = s->stools_per_ha > 0, grows = ceduo_stand_grows(s), cut = s->cutting.rotation > 0;
+    enum cut_lack lack = find_lack(s);
     bool never = p->kind == NO_CUT && isnan(p->number), selection = p->kind == SELECTION;
-    bool borrows = selection || (!cut && !never); /* borrows the cutting */
+    bool stools = s->stools_per_ha > 0, cut = s->cutting.rotation > 0;
+    bool grows = ceduo_stand_grows(s) && (never || lack != CUT_LACKS_SHOOTS);
+    bool borrows = selection || (!cut && !never);               /* borrows the cutting */
+    bool no_trees = grows && !never && lack == CUT_LACKS_TREES; /* borrows the growth of trees */
     const char *stand = ceduo_app_format(p->app, "forest[%zu].stand", i);
     struct lender l = {.fit = 0};
     if (ceduo_stand_is_bare(s) && !stools)
@@ -151,19 +168,24 @@ static void treat_belt(struct plan *p, size_t i, const struct ceduo_belt *belt)
         leave_belt(p, i, ceduo_app_format(p->app, _("'%s' has no stools"), belt->name));
         return;
     }
-    if (!grows || borrows)
+    if (!grows || borrows || no_trees)
         find_lender(p->app, s->species, selection ? CEDUO_SYSTEM_SELECTION_COPPICE : s->system, &l);
-    if (l.fit == 0 && (!grows || borrows)) { /* the shipped stands are missing */
+    if (l.fit == 0 && (!grows || borrows || no_trees)) { /* the shipped stands are missing */
         leave_belt(p, i, ceduo_app_format(p->app, _("no shipped stand has growth and cutting for '%s'"), belt->name));
         return;
     }
     p->treated++;
     if (!grows)
         set_lent(p, i, &l, "growth");
+    if (no_trees)
+        set_lent(p, i, &l, "growth.trees");
     if (borrows)
         set_lent(p, i, &l, "cutting");
-    if (l.fit > 0)
+    if (!grows || borrows)
         report_lent(p, belt->name, &l, !grows, borrows);
+    if (no_trees)
+        add_borrowed(p, ceduo_app_format(p->app, _("The growth of trees of '%s' is that of '%s' (assumed)."), belt->name,
+                                         lent_belt(&l)->name));
     if (selection && grows && s->growth.shoots_old < lent_belt(&l)->stand.growth.shoots_old)
         ceduo_changes_set(&p->edits, ceduo_app_format(p->app, "%s.growth.shoots_old", stand), "%g",
                           lent_belt(&l)->stand.growth.shoots_old);

@@ -32,7 +32,8 @@ trees: [{per_ha: 110, dbh_m: 0.2, height_m: 12}]
 source: {kind: measured, text: six plots}
 """
 PLAIN = HEAD + "forest: [{from_m: 20, to_m: 125, stand: plot.yaml}]   # kept\n"
-OWN_GROWTH = "{shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.02, height_most_m: 15, height_rate_1_y: 0.03}, shoots_young: 12, shoots_old: 2}"
+OWN_SHOOTS = "{shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.02, height_most_m: 15, height_rate_1_y: 0.03}, shoots_young: 12, shoots_old: 2}"
+OWN_GROWTH = OWN_SHOOTS[:-1] + ", trees: {dbh_most_m: 0.5, dbh_rate_1_y: 0.015, height_most_m: 21, height_rate_1_y: 0.03}}"
 OWN = HEAD + """\
 forest:
   - {from_m: 20, to_m: 70, cut_year: 5, stand: {base: plot.yaml, name: own, growth: %s,
@@ -206,6 +207,65 @@ def test_what_a_preset_drops():
     expect("growth" not in note and "cut in" not in note, "nothing was there to lose", note)
     note, _ = chose("key 2\nfind forest[1]\nkey p\ntype large-reserves-cut\nkey Enter\n")
     expect_equal(note, "it is still cut in year 7", "the file of a shipped stand still has its growth")
+
+
+def test_stand_without_cutting():
+    """p and a: a stand without cutting takes the place of one with a cut year, which goes with the cutting; the lights of the
+    choice are previewed, and u undoes both"""
+    with Place() as place:
+        script = "key 2 p\ntype ads-1\nwait idle\ndump\nkey Enter\nkey 5 a\ntype ads-1\nwait idle\ndump\nkey Enter\nkey s\nwait idle\ndump\n"
+        ahead, every = place.play(script, "own.yaml")[:2]
+        for screen in (ahead, every):
+            expect_in("Contact passes", screen.popup)
+        current, added = [o["forest"] for o in place.saved("own.yaml")["options"]]
+        expect_equal([b.get("cut_year") for b in current], [None, 7], "the belt that was replaced, and the other one")
+        expect_equal([(b.get("cut_year"), b["stand"]) for b in added], [(None, "ads-1")] * 2, "the new option")
+    with Place() as place:
+        place.play("key 2 p\ntype ads-1\nkey Enter\nkey u\nkey p\ntype large-reserves-cut\nkey Enter s\nwait idle\ndump", "own.yaml")
+        expect_equal([b["cut_year"] for b in place.saved("own.yaml")["forest"]], [5, 7], "undone, and a stand with cutting")
+        place.write("bad.yaml", "ceduo: stand/1\ntrees: 3\n")
+        screen = place.play("key 2 p\ntype bad\nkey Enter\ndump", "own.yaml")[0]
+        expect_in("trees: expected a list", screen.note + " " + screen.popup)
+
+
+def borrow(treatment, growth):
+    """Return the message and the first belt of the last option after a treatment of a stand with such growth and no cutting."""
+    with Place() as place:
+        place.write("s.yaml", HEAD + "forest: [{from_m: 20, to_m: 125, stand: {base: plot.yaml, name: own, growth: %s}}]\n" % growth)
+        screen = place.play("resize 200 50\nkey 5\n" + treatment + "dump\nkey s\nwait idle\ndump", "s.yaml")[0]
+        return screen.note, place.saved("s.yaml")["options"][-1]["forest"][0]
+
+
+def test_incomplete_growth():
+    """Growth that a cut lacks is borrowed: that of the trees alone, or all if that of the shoots is missing"""
+    simple, chosen = shipped("simple-coppice")["growth"], shipped("selection-coppice")["growth"]
+    own = yaml.safe_load(OWN_SHOOTS)
+    for treatment, lender in ((CUT.format(33), simple), (SELECTION, chosen)):
+        note, belt = borrow(treatment, OWN_SHOOTS)
+        expect_in("The growth of trees of 'own' is that of", note)
+        expect_equal(without_source(belt["stand"]["growth"]["trees"]), lender["trees"], "trees")
+        expect_equal(belt["stand"]["growth"]["trees"]["source"]["kind"], "assumed")
+        expect_equal(belt["stand"]["growth"]["shoots"], own["shoots"], "its own curve")
+    for treatment, borrows in ((CUT.format(33), True), (UNCUT + "key Enter\n", False)):
+        note, belt = borrow(treatment, "{trees: {dbh_most_m: 0.5, dbh_rate_1_y: 0.015, height_most_m: 21, height_rate_1_y: 0.03}}")
+        expect_equal("rowth and cutting of 'own' are those of" in note, borrows, note)
+        expect_equal("shoots" in belt["stand"]["growth"], borrows, "growth")
+
+
+def test_refused_in_view_6():
+    """View 6 refuses a cut year without cutting or growth and a missing number of shoots, with the reader's message"""
+    change = "find forest[0].{}\nkey Enter Ctrl-U\ntype {}\nkey Enter\n"
+    with Place() as place:
+        script = ("resize 200 50\nkey 6\n" + change.format("cut_year", 3) + "dump\nkey Esc\n" + change.format("stand.cutting.rotation_years", 20) +
+                  "wait idle\ndump\n" + change.format("cut_year", 3) + "dump\nkey Esc\nkey s\nwait idle\ndump")
+        year, rotation, growth = place.play(script, "plain.yaml")[:3]
+        expect_in("the cut needs 'cutting' of the stand; add it, or remove 'cut_year'", year.note + year.popup)
+        rotation.has("stand 'plot' has no growth data for its stems.")
+        expect_in("the cut needs 'growth' of the stand; add it, or remove 'cut_year'", growth.note + growth.popup)
+        belt = place.saved("plain.yaml")["forest"][0]
+        expect_equal((belt.get("cut_year"), belt["stand"]["cutting"]), (None, {"rotation_years": 20}), belt)
+        old = place.play("resize 200 50\nkey 6\nfind forest[0].stand.growth.shoots_old\nkey Enter Ctrl-U Enter\ndump\n", "own.yaml")[0]
+        expect_in("'shoots when old' is missing; it has no default", old.note + old.popup)
 
 
 def test_counts_keep():
