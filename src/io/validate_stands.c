@@ -73,6 +73,56 @@ static void check_low(struct validator *v, const char *path, const struct ceduo_
     }
 }
 
+/* Check the numbers of shoots on a growing stool: given if shoots grow, and not rising. */
+static void check_sprouting(struct validator *v, const char *path, const struct ceduo_stand *s)
+{
+    const char *growth = ceduo_asprintf(v, "%s.growth", path);
+    bool shoots_grow = s->stools_per_ha > 0 && is_written(v, growth, "shoots"), old = is_written(v, growth, "shoots_old");
+    bool young = is_written(v, growth, "shoots_young");
+    if (!young && (shoots_grow || old))
+        ceduo_reject(v, path, "growth", _("'%s' is missing; it has no default"), "shoots_young");
+    if (!old && shoots_grow)
+        ceduo_reject(v, path, "growth", _("'%s' is missing; it has no default"), "shoots_old");
+    if (young && s->growth.shoots_young < s->growth.shoots_old && ceduo_is_valid(v, "%s.shoots_young", growth))
+        ceduo_reject(v, path, "growth.shoots_young", _("%s is below the number of old shoots, %s; shoots can only decrease"),
+                     ROUNDTRIP(s->growth.shoots_young), ROUNDTRIP(s->growth.shoots_old));
+}
+
+/* True if all that decides about the cuts of a valid stand was read without an error. */
+static bool is_cutting_read(struct validator *v, const char *belt, const char *stand, const struct ceduo_stand *s)
+{
+    static const char *const keys[] = {"growth", "cutting", "stools", "shoots", "trees"};
+    bool good = ceduo_is_valid(v, "%s.cut_year", belt) && ceduo_is_valid(v, "%s", stand);
+    for (size_t i = 0; good && i < sizeof keys / sizeof keys[0]; i++)
+        good = ceduo_is_valid_below(v, ceduo_asprintf(v, "%s.%s", stand, keys[i]));
+    bool counts = s->growth.shoots_old > 0 || !is_written(v, stand, "growth.shoots"); /* otherwise reported */
+    return good && (counts || !(s->stools_per_ha > 0));
+}
+
+/* Check that the cuts of a belt can be computed. Only a stand that does not change at all may lack what they need. */
+static void check_cuts(struct validator *v, const char *path, const char *stand, const struct ceduo_belt *belt)
+{
+    enum cut_lack lack = ceduo_cut_lack(&belt->stand, belt->cut_year);
+    bool year = !isnan(belt->cut_year), growth = is_written(v, stand, "growth");
+    bool stems = ceduo_stand_has_stems(&belt->stand) || belt->stand.stools_per_ha > 0;
+    if (lack == CUT_LACKS_NOTHING || (lack == CUT_LACKS_CUTTING && !year) || !stems) /* a gap has nothing to cut */
+        return;
+    if (!is_cutting_read(v, path, stand, &belt->stand))
+        return;
+    if (lack == CUT_LACKS_CUTTING)
+        ceduo_reject(v, path, "cut_year", _("the cut needs '%s' of the stand; add it, or remove '%s'"), "cutting", "cut_year");
+    else if (!growth && year)
+        ceduo_reject(v, path, "cut_year", _("the cut needs '%s' of the stand; add it, or remove '%s'"), "growth", "cut_year");
+    else if (!growth)
+        ceduo_warn(v, stand, "cutting", _("the stand is never cut, because it has no '%s'; add it for future years"), "growth");
+    else if (lack == CUT_LACKS_AGE)
+        ceduo_reject(v, stand, "cutting", _("the year of the first cut is unknown; give '%s', '%s' of the trees, or '%s'"),
+                     "cut_year", "age_y", "growth.trees");
+    else
+        ceduo_reject(v, stand, "cutting", _("the cut needs '%s' of the stand; add it, or remove '%s'"),
+                     lack == CUT_LACKS_SHOOTS ? "growth.shoots" : "growth.trees", "cutting");
+}
+
 static void check_stand(struct validator *v, const char *path, struct ceduo_stand *s)
 {
     ceduo_stand_update_shoot_density(s);
@@ -82,9 +132,7 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
                                                : CEDUO_SYSTEM_BARE;
     if (!ceduo_is_valid(v, "%s", path)) /* its base is unreadable */
         return;
-    if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_valid(v, "%s.growth.shoots_young", path))
-        ceduo_reject(v, path, "growth.shoots_young", _("%s is below the number of old shoots, %s; shoots can only decrease"),
-                     ROUNDTRIP(s->growth.shoots_young), ROUNDTRIP(s->growth.shoots_old));
+    check_sprouting(v, path, s);
     if (s->system == CEDUO_SYSTEM_BARE && ceduo_stand_has_stems(s))
         ceduo_reject(v, path, "system", _("'bare' has no stems; name the system, or remove the stems"));
     for (size_t i = 0; i < s->shoots_count; i++) { /* per_ha or per_stool is required */
@@ -163,6 +211,7 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
         belt->name = (char *)(uintptr_t)(belt->changed ? ceduo_asprintf(v, _("%s (changed)"), shown) : shown);
         belt->assumed = ceduo_notes_print(*v->notes, "assumed", stand);
         check_stand(v, stand, &belt->stand);
+        check_cuts(v, item_path, stand, belt);
     }
 }
 

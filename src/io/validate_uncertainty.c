@@ -155,7 +155,8 @@ static const struct field *find_field(struct validator *v, const char *path)
 
 /* Add the places of several paths, each once. Set *field to the row of their key; NULL: no option of them was kept. Return
  * false with the first path in *bad that has no such row, or another key than the paths before it. */
-static bool find_all_places(struct places *p, const char *prefix, const char *paths, const struct field **field, const char **bad)
+static bool find_all_places(struct places *p, const char *prefix, const char *paths, const struct field **field,
+                            const char **bad)
 {
     struct validator *v = p->v;
     size_t n;
@@ -189,15 +190,6 @@ static bool find_all_places(struct places *p, const char *prefix, const char *pa
 
 /* ---- ranges ---- */
 
-/* Return the place of a key of a row. */
-static struct problem_place find_place(struct validator *v, const struct row *row, const char *key)
-{
-    const char *path;
-    size_t used;
-    const struct node *node = ceduo_resolve_walk(v->root, ceduo_asprintf(v, "%s.%s", row->path, key), &path, &used);
-    return ceduo_node_place(node, path);
-}
-
 static bool read_range(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
 {
     double mean = row->uncertainty.mean, sd = row->uncertainty.sd;
@@ -218,7 +210,7 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
             return ceduo_reject(v, row->path, keys[i], _("%s is outside the range of %s: %s"), ROUNDTRIP(ends[i]), field->key,
                                 ceduo_describe_range(v, field));
     for (int i = 0; i < (normal ? 1 : 2); i++)
-        ceduo_warn_unusual(v->problems, find_place(v, row, keys[i]), field, normal ? mean : ends[i]);
+        ceduo_warn_unusual(v->problems, ceduo_find_place(v, row->path, keys[i]), field, normal ? mean : ends[i]);
     return true;
 }
 
@@ -249,12 +241,9 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
 /* Warn that a path names nothing: it is misspelt, or the file has lost the item. --set may have exchanged it. */
 static void warn_missing(struct validator *v, const struct row *row, const char *path)
 {
-    struct problem_place place = find_place(v, row, "path");
-    place.unusual = true;
     if (!(v->file->changed & ceduo_scene_list(path)))
-        ceduo_problem_at(v->problems, place,
-                         _("'%s' names nothing in this scene, so its range is not used; check its spelling"),
-                         row->uncertainty.path);
+        ceduo_warn(v, row->path, "path", _("'%s' names nothing in this scene, so its range is not used; check its spelling"),
+                   row->uncertainty.path);
 }
 
 /* Make the input of a row, with its places. Return false on error, or if the scene has no such place. */

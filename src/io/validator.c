@@ -6,17 +6,32 @@
 
 #include "base/language.h"
 
-bool ceduo_reject(struct validator *v, const char *path, const char *key, const char *format, ...)
+struct problem_place ceduo_find_place(struct validator *v, const char *path, const char *key)
 {
     const char *file_path;
     size_t used;
     const struct node *node =
         ceduo_resolve_walk(v->root, key[0] ? ceduo_asprintf(v, "%s.%s", path, key) : path, &file_path, &used);
+    return ceduo_node_place(node, file_path);
+}
+
+bool ceduo_reject(struct validator *v, const char *path, const char *key, const char *format, ...)
+{
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(v->problems, ceduo_node_place(node, file_path), format, args);
+    ceduo_problem_v(v->problems, ceduo_find_place(v, path, key), format, args);
     va_end(args);
     return false;
+}
+
+void ceduo_warn(struct validator *v, const char *path, const char *key, const char *format, ...)
+{
+    struct problem_place place = ceduo_find_place(v, path, key);
+    place.unusual = true;
+    va_list args;
+    va_start(args, format);
+    ceduo_problem_v(v->problems, place, format, args);
+    va_end(args);
 }
 
 const char *ceduo_asprintf(struct validator *v, const char *format, ...)
@@ -149,6 +164,14 @@ static void check_rules(struct validator *v, const char *list, const struct cedu
     }
 }
 
+static void check_years(struct validator *v)
+{
+    double first = v->draft.scene.year_first, last = v->draft.scene.year_last; /* NaN: not given, or invalid */
+    if (last < first)
+        ceduo_reject(v, "years", "last", _("the last year, %s, is before the first, %s; correct one"), ROUNDTRIP(last),
+                     ROUNDTRIP(first));
+}
+
 bool ceduo_validate(struct validator *v)
 {
     struct ceduo_scene *scene = &v->draft.scene;
@@ -167,6 +190,7 @@ bool ceduo_validate(struct validator *v)
     ceduo_simplify_slope(v);
     ceduo_validate_controls(v);
     ceduo_validate_options(v);
+    check_years(v);
     bool forest = false;
     for (size_t i = 0; i < scene->options_count; i++)
         forest |= scene->options[i].belts_count > 0;

@@ -55,9 +55,16 @@ void ceduo_arrange_observed(struct validator *v);
 
 /* ---- tools ---- */
 
+/* Return the place of the deepest node on the way to a path, or to a key ("": none) of the mapping there. */
+struct problem_place ceduo_find_place(struct validator *v, const char *path, const char *key);
+
 /* Report an error at a path, or at a key ("": none) of the mapping there, with the line and column of the deepest node. If the
  * file is not recognized, the message quotes no value of it. Return false. */
 bool ceduo_reject(struct validator *v, const char *path, const char *key, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* Report a warning at such a place; the scene stays valid. */
+void ceduo_warn(struct validator *v, const char *path, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 /* Print to a string in the arena, such as the path of an item. Return "" without memory. */

@@ -559,12 +559,27 @@ class Maker:
         if kind != "bare" and stand.get("system") == "bare":
             del stand["system"]
         growth = stand.get("growth", {})
+        if "growth" not in stand:
+            stand.pop("cutting", None)  # otherwise a warning
+        elif self.chance(0.95):  # otherwise refused if a cut lacks data
+            self.complete_growth(node, stand)
         young, old = growth.get("shoots_young"), growth.get("shoots_old")
         if young is None and old is not None and self.chance(0.9):
             del growth["shoots_old"]
+            old = None
         if young is not None and old is not None and young < old:
             growth["shoots_young"], growth["shoots_old"] = old, young
         return stand
+
+    def complete_growth(self, node, stand):
+        """Add what growth and cuts need."""
+        growth, stools = stand["growth"], stand.get("stools", {}).get("per_ha", 0) > 0
+        for key in ("shoots", "trees"):
+            if "cutting" in stand and not growth.get(key) and (stools or key == "trees"):
+                growth[key] = self.fill(node["growth"][key], {})
+        for key in ("shoots_young", "shoots_old"):
+            if stools and "shoots" in growth and key not in growth:
+                self.value(node["growth"][key], growth)
 
     def filed(self, stand):
         """Write the stand into the scene: itself, a file's name, or a file and its changes."""
@@ -599,6 +614,8 @@ class Maker:
                 continue
             stand = self.stand()
             belts.append(self.fill(self.table.tree["forest[]"], {"from_m": a, "to_m": b}, ("stand",)))
+            if "cutting" not in stand and self.chance(0.95):  # otherwise refused
+                belts[-1].pop("cut_year", None)
             belts[-1]["stand"] = self.filed(stand)
             whole.append((a, b, stand))
         self.case.used |= {"forest[].from_m", "forest[].to_m"}
@@ -662,6 +679,9 @@ class Maker:
         scene["simulation"]["rocks"] = case.rocks = self.rng.choice([1, 2, 3, 10, 20, 50])
         case.used.add("simulation.rocks")
         self.fill(tree, scene, ("controls", "controls_m", "forest", "options", "simulation", "release", "uncertainty", "blocks", *BESIDE_KEYS))
+        years = scene.get("years", {})
+        if years.get("last", math.inf) < years.get("first", 0) and self.chance(0.95):  # otherwise refused
+            years["first"], years["last"] = years["last"], years["first"]
         if self.chance(0.2):
             scene["uncertainty"] = self.uncertainty()
         if self.chance(0.1):

@@ -11,12 +11,15 @@ from pages import WHOLE
 ROW = {"article": "art. 1, Act 2", "year": 1999}
 
 
+CURVE = {"dbh_most_m": 0.4, "dbh_rate_1_y": 0.02, "height_most_m": 18, "height_rate_1_y": 0.04}
+
+
 def coppice(species="ostrya-carpinifolia", standards=60, turn=25, **changes):
     cut = {"rotation_years": turn, "stay_per_ha": [standards - 20, 20]} if turn else None
     return stand(**{"species": species, "stools": {"per_ha": 2000, "spacing_m": 0.3},
                     "shoots": [{"per_ha": 5000, "dbh_m": 0.06, "height_m": 7}],
                     "trees": [{"per_ha": 75, "dbh_m": 0.2, "height_m": 12}], "cutting": cut,
-                    "growth": None, **changes})
+                    "growth": {"shoots": CURVE, "trees": CURVE, "shoots_young": 10, "shoots_old": 3}, **changes})
 
 
 def site(what, rules, **changes):

@@ -16,7 +16,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, FULL, PATIENCE, PROFILES, USAGE, Failure, Folder, ceduo, environment, expect, expect_equal,
+from harness import (CEDUO, DONE, FULL, INPUT, PATIENCE, PROFILES, USAGE, Failure, Folder, ceduo, environment, expect, expect_equal,
                      expect_in, expect_near, good, option_today, result, results, run_all)
 from pages import WHOLE, digits
 
@@ -179,9 +179,8 @@ def expect_work(found, runs):
 
 def test_flown_once():
     """Years with equal forests are simulated once: 2 runs without growth, at most 26 forests in 52 years of rotation 25"""
-    still = coppice(growth=None)
+    still = coppice(growth=None, cutting=None)
     expect_work(run(site(belt(0, 135, still)), "0:10"), 2)
-    expect_work(run(site(belt(0, 135, still, cut_year=3)), "0:10"), 2)  # unknown growth: no cuts either
     expect_work(run(site(belt(0, 135, coppice(), cut_year=1), rocks=50), "0:51"), 1 + 26)
     expect_work(run(site(belt(0, 135, coppice(), cut_year=0), rocks=50), "0:51"), 1 + 1 + 25)  # the file's, and 25
     expect_work(run(site(belt(0, 135, coppice(stay=[]), cut_year=1), rocks=50), "0:51"), 26)  # bare just after the cut
@@ -217,7 +216,80 @@ def test_cuts():
                  f"{25 - age:.1f} years before they are 25")
     young = coppice(shoots=[{"per_ha": 7500, "dbh_m": 0.05, "height_m": 6, "age_y": 22}])
     expect_equal(cut_years(run_years(site(belt(0, 135, young), rocks=1), "0:30")), [3, 28], "22 years old")
-    expect_equal(cut_years(run_years(site(belt(0, 135, coppice(cutting=None), cut_year=3), rocks=1), "0:30")), [], "no rotation")
+    expect_equal(cut_years(run_years(site(belt(0, 135, coppice(cutting=None)), rocks=1), "0:30")), [], "no rotation")
+    felled = {"name": "felled", "trees": [{"per_ha": 300, "dbh_m": 0.3, "height_m": 20, "age_y": 80}],
+              "cutting": {"rotation_years": 90}}  # nothing grows, but the age is known
+    expect_equal(cut_years(run_years(site(belt(0, 135, felled), rocks=1), "0:30")), [10], "trees without growth")
+    del felled["trees"][0]["age_y"]
+    expect_equal(cut_years(run_years(site(belt(0, 135, felled, cut_year=4), rocks=1), "0:30")), [4], "their cut year")
+    gap = {"name": "gap", "stools": {"per_ha": 0, "spacing_m": 0.3}}
+    expect_equal(cut_years(run_years(site(belt(0, 135, gap, cut_year=4), rocks=1), "0:30")), [], "nothing to cut")
+
+
+CUT_NEEDS = "the cut needs '{}' of the stand; add it, or remove '{}'"
+
+
+def check(stand, **changes):
+    """Return status and messages of --check of a scene with one belt, in one line."""
+    with Folder() as f:
+        r = ceduo("--check", f.write("s.yaml", site(belt(25, 120, stand, **changes))))
+    return r.status, " ".join(r.err.split())
+
+
+def expect_refused(stand, *messages, **changes):
+    status, err = check(stand, **changes)
+    expect_equal((status, err.count("s.yaml:")), (INPUT, len(messages)), err)
+    for message in messages:
+        expect_in(message, err)
+
+
+def test_cuts_that_lack_data():
+    """A cut that cannot be computed is refused: without cutting, growth of shoots or trees, numbers of shoots or an age"""
+    whole = coppice()["growth"]
+
+    def grown(*without, **changes):
+        return coppice(growth={k: v for k, v in whole.items() if k not in without}, **changes)
+    expect_equal(check(coppice(), cut_year=2), (DONE, ""), "complete")
+    expect_refused(coppice(cutting=None), "forest[0].cut_year: " + CUT_NEEDS.format("cutting", "cut_year"), cut_year=2)
+    expect_refused(coppice(growth=None), "forest[0].cut_year: " + CUT_NEEDS.format("growth", "cut_year"), cut_year=2)
+    for year in ({}, {"cut_year": 2}):
+        expect_refused(grown("trees"), "stand.cutting: " + CUT_NEEDS.format("growth.trees", "cutting"), **year)
+        expect_refused(grown("shoots"), "stand.cutting: " + CUT_NEEDS.format("growth.shoots", "cutting"), **year)
+        expect_refused(grown("shoots_old"), "stand.growth: 'shoots_old' is missing; it has no default", **year)
+        expect_refused(grown("shoots_young"), "stand.growth: 'shoots_young' is missing; it has no default", **year)
+        expect_refused(grown("shoots_young", "shoots_old"), "'shoots_young' is missing", "'shoots_old' is missing", **year)
+        expect_equal(check(grown("trees", stay=[0]), **year), (DONE, ""), "no trees stay")
+        expect_equal(check(grown("trees", stay=[]), **year), (DONE, ""), "no list of trees")
+        expect_equal(check(grown("trees", cutting=None)), (DONE, ""), "never cut")
+    high = {"trees": [{"per_ha": 300, "dbh_m": 0.3, "height_m": 20}], "cutting": {"rotation_years": 90}, "growth": {"shoots": SHOOTS}}
+    expect_refused(high, "the year of the first cut is unknown; give 'cut_year', 'age_y' of the trees, or 'growth.trees'")
+    expect_equal(check(high, cut_year=2), (DONE, ""), "a known year; shoots without stools need no numbers")
+    expect_equal(check({**high, "growth": {"trees": TREES}}), (DONE, ""), "a known age")
+    expect_refused({**high, "growth": {"shoots_old": 3}}, "'shoots_young' is missing", cut_year=2)
+
+
+def test_errors_of_cuts_once():
+    """An error of growth, cutting, stems or cut year is reported alone, not what follows from it"""
+    whole = coppice()
+    bad = {**SHOOTS, "dbh_most_m": "x"}
+    expect_refused(coppice(growth={**whole["growth"], "shoots": bad}), "growth.shoots.dbh_most_m: 'x' is in quotes", cut_year=2)
+    expect_refused(coppice(growth={**whole["growth"], "shoots_old": "x"}), "growth.shoots_old: 'x' is in quotes", cut_year=2)
+    expect_refused(coppice(growth={**whole["growth"], "shoots_young": "x"}), "growth.shoots_young: 'x' is in quotes", cut_year=2)
+    expect_refused(coppice(cutting={"rotation_years": "x"}), "cutting.rotation_years: 'x' is in quotes", cut_year=2)
+    expect_refused(coppice(cutting=None), "cut_year: 'x' is in quotes", cut_year="x")
+    expect_refused("nowhere", "cannot find 'nowhere'", cut_year=2)
+
+
+def test_cutting_without_growth():
+    """A stand with cutting and no growth at all is computed for today with a warning: its rules and trees count"""
+    still = coppice(growth=None)
+    status, err = check(still)
+    expect_equal((status, err.count("s.yaml:")), (DONE, 1), err)
+    expect_in("forest[0].stand.cutting: the stand is never cut, because it has no 'growth'; add it for future years", err)
+    with Folder() as f:
+        page = ceduo(*WHOLE, "-n", 20, f.write("s.yaml", site(belt(0, 135, still))))
+    expect_in("'current' does not change: stand 'coppice' has no growth data for its stems.", re.sub(r"\s+", " ", page.out))
+    expect_in("the stand is never cut", page.err)
 
 
 def test_a_rotation_later():
@@ -558,7 +630,7 @@ def test_years_ahead():
         path = f.write("s.yaml", site(belt(0, 60, coppice(), cut_year=3), belt(70, 130, coppice(10, [5]), cut_year=8), rocks=1))
         found = [y["year"] for y in result("--years", path)["options"][0]["years"]]
         expect_equal(found, list(range(1, 26)), "belts of 25 and 10 years: the longer rotation")
-        for given, wanted in (("{first: 2}", range(2, 27)), ("{last: 4}", range(1, 5)), ("{first: 3, last: 5}", range(3, 6))):
+        for given, wanted in (("{first: 2}", range(2, 27)), ("{last: 4}", range(1, 5)), ("{last: 0}", [0]), ("{first: 9, last: 9}", [9]), ("{first: 3, last: 5}", range(3, 6))):
             found = [y["year"] for y in result("--years", "-s", f"years={given}", path)["options"][0]["years"]]
             expect_equal(found, list(wanted), given)
         expect_equal([y["year"] for y in result("--years", "4:6:2", "-s", "years={first: 1}", path)["options"][0]["years"]], [4, 6])
@@ -566,7 +638,7 @@ def test_years_ahead():
 
 def test_alike_years():
     """A stand without growth: its answer is today's, and the page gives the reason; its years count with the others'"""
-    still = coppice(growth=None)
+    still = coppice(growth=None, cutting=None)
     with Folder() as f:
         path = f.write("s.yaml", site(options=[("grows", [belt(0, 135, coppice())]), ("still", [belt(0, 135, still)]), ("none", [])]))
         text = re.sub(r"\s+", " ", good(*WHOLE, "-n", 200, path).out)

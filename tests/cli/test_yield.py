@@ -3,6 +3,7 @@
 """Yields of the options: volumes felled, standing and dead compared with sums by hand, for one preset of each system."""
 import csv
 import io
+import json
 import math
 import re
 import sys
@@ -86,6 +87,9 @@ PRESETS = {
     "selection-coppice": (System(1200, 13, 3, 6, [0, 0, 0, 40]), 130.18 - 53.74),
     "large-reserves": (System(1057, 25, 1, 3, [125, 125]), 139.94 - 47.37),
 }
+
+
+STILL = coppice(growth=None, cutting=None)
 
 
 def run_yield(mapping, *arguments):
@@ -174,15 +178,19 @@ def test_length_weights():
 def test_unknown():
     """Without growth or cutting, or without a forest, the yield is null, never 0"""
     options = run_yield(site(options=[
-        ("no growth", [belt(0, 135, coppice(growth=None))]), ("no cut", [belt(0, 135, coppice(cutting=None))]),
-        ("nothing", []), ("one of two", [belt(0, 50, coppice()), belt(50, 135, coppice(growth=None))])]))
+        ("neither", [belt(0, 135, STILL)]), ("no cut", [belt(0, 135, coppice(cutting=None))]),
+        ("nothing", []), ("one of two", [belt(0, 50, coppice()), belt(50, 135, STILL)])]))
     expect_equal([o["yield"] for o in options], [None] * 4)
+    with Folder() as f:
+        r = ceduo("--batch", "-f", "json", "-n", 2, f.write("s.yaml", site(belt(0, 135, coppice(growth=None)))))
+    expect_equal(json.loads(r.out)["options"][0]["yield"], None, "no growth")
+    expect_in("the stand is never cut, because it has no 'growth'", r.err)
 
 
 def test_csv():
     """CSV: each row has the yield, empty if unknown"""
     with Folder() as f:
-        path = f.write("s.yaml", site(options=[("coppice", [belt(0, 135, coppice())]), ("still", [belt(0, 135, coppice(growth=None))])]))
+        path = f.write("s.yaml", site(options=[("coppice", [belt(0, 135, coppice())]), ("still", [belt(0, 135, STILL)])]))
         rows = list(csv.DictReader(io.StringIO(good("--batch", "-n", 2, "-f", "csv", path).out)))
         found = result("-n", 2, path)["options"][0]["yield"]
     for key in ("cut_m3_ha_per_year", "standing_m3_ha_mean", "died_m3_ha_per_year"):
@@ -193,7 +201,7 @@ def test_csv():
 def test_page():
     """Page: each option has its yield per year and its standing volume, '-' if unknown"""
     with Folder() as f:
-        path = f.write("s.yaml", site(options=[("coppice", [belt(0, 135, coppice())]), ("still", [belt(0, 135, coppice(growth=None))])]))
+        path = f.write("s.yaml", site(options=[("coppice", [belt(0, 135, coppice())]), ("still", [belt(0, 135, STILL)])]))
         text = good(*WHOLE, "-n", 100, path).out
         found = result("-n", 2, path)["options"][0]["yield"]
     side = text[text.index("Side by side"):]
