@@ -142,8 +142,8 @@ def test_answer():
 
 
 GROWS = ("{name: grows, stools: {per_ha: 800, spacing_m: 0.3}, shoots: [{per_ha: 2000, dbh_m: 0.08, height_m: 8}],"
-         " growth: {shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.1, height_most_m: 14, height_rate_1_y: 0.1}},"
-         " cutting: {rotation_years: 3, stay_per_ha: [0]}, energy: {model: brauner, u_J_m3: 100000, offset: whole}}")
+         " growth: {shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.1, height_most_m: 14, height_rate_1_y: 0.1}, shoots_young: 2.5, shoots_old: 2.5},"
+         " energy: {model: brauner, u_J_m3: 100000, offset: whole}}")
 STAYS = "{name: stays, trees: [{per_ha: 300, dbh_m: 0.2, height_m: 12}], energy: {model: brauner, u_J_m3: 100000, offset: whole}}"
 
 

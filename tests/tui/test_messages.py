@@ -76,7 +76,7 @@ def test_one_error():
 def test_growth_in_centimetres():
     """View 6 names the displayed unit of a diameter"""
     growth = ("growth: {shoots: {dbh_most_m: 0.25, dbh_rate_1_y: 0.03, height_most_m: 18, height_rate_1_y: 0.05}, "
-              "trees: {dbh_most_m: 0.6, dbh_rate_1_y: 0.02, height_most_m: 25, height_rate_1_y: 0.04}}")
+              "trees: {dbh_most_m: 0.6, dbh_rate_1_y: 0.02, height_most_m: 25, height_rate_1_y: 0.04}, shoots_young: 9, shoots_old: 3}")
     with Place() as place:
         place.write("grows.yaml", WOOD.replace("name: upper\n", f"name: upper\n      {growth}\n"))
         shoots, trees = place.play("key 6\nfind forest[0].stand.growth.shoots.dbh_most_m\ndump\n"

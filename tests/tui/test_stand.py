@@ -11,14 +11,19 @@ from harness import expect, expect_equal, expect_in, expect_near, run_all  # noq
 
 ASSUMED = "source: {kind: assumed, text: a guess}"
 PER_STOOL = FAST.replace("{per_ha: 9000,", "{per_stool: 2.5,").replace("{per_ha: 500,", "{per_stool: 0.5,")
-# The first class of trees is assumed, the second counted; shoots grow, trees do not; a cut retains 60 + 40.
-CUT = FAST.replace("{per_ha: 80, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}", f"{{per_ha: 80, dbh_m: 0.2, height_m: 12, {ASSUMED}}}").replace(
+# The first class of trees is assumed, the second counted; shoots grow, trees do not.
+GROWS = FAST.replace("{per_ha: 80, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}", f"{{per_ha: 80, dbh_m: 0.2, height_m: 12, {ASSUMED}}}").replace(
     "{per_ha: 9000, dbh_m: 0.06, height_m: 7, volume_m3: 0.01}", f"{{per_ha: 9000, dbh_m: 0.06, height_m: 7, {ASSUMED}}}").replace(
     "      energy: {model: brauner, u_J_m3: 100000, offset: whole}\n", """\
       energy: {model: brauner, u_J_m3: 100000, offset: whole}
-      growth: {shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.02, height_most_m: 15, height_rate_1_y: 0.03}}
-      cutting: {rotation_years: 20, stay_per_ha: [60, 40]}
+      growth: {shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.02, height_most_m: 15, height_rate_1_y: 0.03}, shoots_young: 9, shoots_old: 3}
 """, 1)
+# Trees grow, too, and a cut retains 60 + 40.
+CUT = GROWS.replace("shoots_old: 3}\n", """\
+shoots_old: 3,
+               trees: {dbh_most_m: 0.5, dbh_rate_1_y: 0.02, height_most_m: 20, height_rate_1_y: 0.03}}
+      cutting: {rotation_years: 20, stay_per_ha: [60, 40]}
+""")
 
 
 def play(text, script):
@@ -49,7 +54,7 @@ def test_per_hectare():
 def test_diameter():
     """A starred height follows its diameter by the growth curve, and keeps its star; u undoes both"""
     curve = [15 * (1 - (1 - d / 0.2) ** (0.03 / 0.02)) for d in (0.06, 0.12)]
-    start, thicker, back = play(CUT, "resize 120 40\nkey 2\nfind shoots[0].dbh_m\ndump\nset 12\ndump\nkey u\ndump")
+    start, thicker, back = play(GROWS, "resize 120 40\nkey 2\nfind shoots[0].dbh_m\ndump\nset 12\ndump\nkey u\ndump")
     row = thicker.row(r"^1 +9000")
     expect_equal((row[2], row[3][-1]), ("12", "*"), thicker)
     expect_near(float(row[3][:-1]), 7 * curve[1] / curve[0], 0.05, "as much higher as the curve")
@@ -59,7 +64,7 @@ def test_diameter():
 
 def test_diameter_alone():
     """A measured height stays; an assumed one without a curve stays, too, with a message"""
-    counted, beyond, tree = play(CUT, """resize 120 40
+    counted, beyond, tree = play(GROWS, """resize 120 40
         key 2
         find shoots[1].dbh_m
         set 15
