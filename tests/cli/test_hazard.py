@@ -489,7 +489,7 @@ def test_design_of_sizes():
 def test_years():
     """Over a rotation rates are means of the years' rates, and the error of the mean share covers other seeds"""
     curve = {"dbh_most_m": 0.3, "dbh_rate_1_y": 0.03, "height_most_m": 20, "height_rate_1_y": 0.05}
-    grown = stand(growth={"shoots": curve, "trees": curve}, cutting={"rotation_years": 12, "stay_per_ha": [100]})
+    grown = stand(growth={"shoots": curve, "trees": curve, "shoots_young": 9, "shoots_old": 2}, cutting={"rotation_years": 12, "stay_per_ha": [100]})
     classes = [{"per_year": 0.4, "volume_m3": [0.05, 0.5], "exponent": 1}, {"per_year": 0.1, "volume_m3": [0.5, 2], "exponent": 1}]
     site = slope_site(forest=[{"from_m": 0, "to_m": 140, "stand": grown}], simulation={"rocks": 300}, blocks=classes)
     means, errors = [], []
