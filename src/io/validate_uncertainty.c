@@ -164,9 +164,7 @@ static bool find_all_places(struct places *p, const char *prefix, const char *pa
     *bad = paths;
     for (const char *rest = paths, *next; (next = ceduo_paths_next(&rest, &n));) {
         const char *written = ceduo_asprintf(v, "%s%.*s", prefix, (int)n, next);
-        const char *path = prefix[0] || !written ? written : translate_option(v, written);
-        if (!written) /* untaken: memory */
-            return false;
+        const char *path = prefix[0] ? written : translate_option(v, written);
         if (!path) /* the option was not kept */
             continue;
         const struct field *own = find_field(v, path);
