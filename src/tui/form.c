@@ -284,22 +284,44 @@ void ceduo_form_go_to_item(struct form *form, const char *list, size_t index)
     ceduo_form_clamp(form);
 }
 
+/* True if the label of line i, or a heading above it or above its table, contains a word. */
+static bool line_shows(const struct form *form, size_t i, const char *word)
+{
+    const char *list = form->rows[i].list;
+    bool found = strcasestr(form->rows[i].label, word);
+    for (; i > 0 && (!has_fields(&form->rows[i - 1]) || (list[0] && strcmp(form->rows[i - 1].list, list) == 0)); i--)
+        found |= form->rows[i - 1].kind == FORM_HEADING && strcasestr(form->rows[i - 1].label, word);
+    return found;
+}
+
+/* True if the value of a cell, or the head of its column, long or short, contains a word. */
+static bool cell_shows(const struct form_cell *cell, bool has_head, const char *word)
+{
+    const struct field_shown *head = &cell->field->shown;
+    char shown[CELL_SIZE];
+    write_cell(shown, cell, COLUMNS_MAX);
+    return strcasestr(cell->text, word) || strcasestr(shown, word) || (has_head && strcasestr(_(head->label), word)) ||
+           (has_head && head->brief && strcasestr(ceduo_translate_in(head->brief), word));
+}
+
 bool ceduo_form_search(struct form *form, const char *word)
 {
-    for (size_t step = 1; word[0] && step <= form->n; step++) {
-        size_t i = (form->row + step) % form->n;
-        const struct form_row *row = &form->rows[i];
-        size_t k = 0, n = has_fields(row) ? row->n : 0; /* the label of the row stands for its first cell */
-        bool named = has_fields(row) && strcasestr(row->label, word);
-        while (k < n && !(k == 0 && named) && !strcasestr(row->cells[k].text, word) && !strcasestr(row->cells[k].path, word))
-            k++;
-        if (k == n && !named)
-            continue;
-        form->row = i;
-        form->column = k < n ? k : 0;
-        ceduo_form_clamp(form);
-        return true;
-    }
+    for (int by_path = 0; word[0] && by_path < 2; by_path++) /* words on the screen first */
+        for (size_t step = 1; step <= form->n; step++) {
+            size_t i = (form->row + step) % form->n, k = 0;
+            const struct form_row *row = &form->rows[i];
+            bool found = has_fields(row) && !by_path && line_shows(form, i, word); /* the first cell stands for its line */
+            while (has_fields(row) && !found && k < row->n) {
+                found = by_path ? strcasestr(row->cells[k].path, word) != NULL : cell_shows(&row->cells[k], row->columns != NULL, word);
+                k += !found;
+            }
+            if (!found)
+                continue;
+            form->row = i;
+            form->column = k;
+            ceduo_form_clamp(form);
+            return true;
+        }
     return false;
 }
 

@@ -59,8 +59,8 @@ void ceduo_form_rest(struct form *form, const char *group);
 void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys);
 void ceduo_form_points(struct form *form, const char *list);
 
-/* Move the cursor to a line with fields: the nearest; by lines and columns; to the next line whose label, text or path
- * contains a word (false: none); to item `index` of a list, or the last before it. */
+/* Move the cursor to a line with fields: the nearest; by lines and columns; to the next cell with a word in its
+ * text, label, heading or column head, or else in its path (false: none); to item `index` of a list, or the last before it. */
 void ceduo_form_clamp(struct form *form);
 void ceduo_form_move(struct form *form, int lines, int columns);
 bool ceduo_form_search(struct form *form, const char *word);

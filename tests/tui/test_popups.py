@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import play  # noqa: E402
 from play import FAST, Place, actions, check_good, fast  # noqa: E402
 from harness import expect, expect_equal, expect_in, expect_near, run_all  # noqa: E402
 from test_screens import lights  # noqa: E402
@@ -432,6 +433,19 @@ def test_search():
     expect(notes[0] != notes[1] and {"speed along, m/s", "speed upward, m/s"} <= set(notes), notes)
     expect_in("'zzz' not found in this view", screens[5].note)
     expect_equal(screens[6].note.split(":")[0], notes[2], "the field after Esc")
+
+
+def test_search_shown_words():
+    """/ finds the head of a column, long or short, in the language shown, and words on the screen before paths"""
+    for language, view, word, wanted in (("en", 2, "diam", "diameter, cm"), ("en", 1, "limit", "limit, kJ"), ("it", 1, "limite", "limite, kJ"),
+                                         ("en", 2, "volume", "volume, m³"), ("it", 2, "scarto", "scarto diam., cm"), ("it", 2, "diam", "diametro, cm"),
+                                         ("en", 1, "name", "name"), ("en", 1, "accepted_kJ", "limit, kJ")):
+        with Place() as place:
+            found, again = play.play(place.path, f"key {view}\nwait idle\nfind {word}\ndump\nkey N\ndump", "fast.yaml", "--language", language)
+        expect(found.note.startswith(f"{wanted}: "), f"{language}, {word}: {found.note!r}")
+        expect(again.note.startswith(f"{wanted}: "), f"{language}, {word} again: {again.note!r}")
+    (label,) = fast("key 3\nfind rock\ndump")
+    expect("rock" in label.note.split(":")[0], f"a path is found before a label: {label.note!r}")
 
 
 def test_help():
