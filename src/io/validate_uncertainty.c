@@ -516,11 +516,12 @@ static void add_draws(struct validator *v)
 static bool has_common_path(struct validator *v, const char *a, const char *b)
 {
     size_t n, m;
-    for (const char *rest = a, *one; (one = ceduo_paths_next(&rest, &n));)
-        for (const char *others = b, *other; (other = ceduo_paths_next(&others, &m));)
-            if (ceduo_schema_same(replace_names(v, ceduo_asprintf(v, "%.*s", (int)n, one)),
-                                  replace_names(v, ceduo_asprintf(v, "%.*s", (int)m, other))))
+    for (const char *rest = a, *path; (path = ceduo_paths_next(&rest, &n));) {
+        const char *indexed = replace_names(v, ceduo_asprintf(v, "%.*s", (int)n, path));
+        for (const char *row = b, *next; (next = ceduo_paths_next(&row, &m));)
+            if (ceduo_schema_same(indexed, replace_names(v, ceduo_asprintf(v, "%.*s", (int)m, next))))
                 return true;
+    }
     return false;
 }
 

@@ -70,8 +70,8 @@ static void append_paths(struct arena *arena, struct text *to, const char *paths
     size_t n, m;
     for (const char *rest = paths, *path; (path = ceduo_paths_next(&rest, &n));) {
         bool added = false;
-        for (const char *others = ceduo_text_string(to), *other; (other = ceduo_paths_next(&others, &m));)
-            added |= n == m && memcmp(path, other, n) == 0;
+        for (const char *row = ceduo_text_string(to), *next; (next = ceduo_paths_next(&row, &m));)
+            added |= n == m && memcmp(path, next, n) == 0;
         if (!added)
             ceduo_text_format(to, "%s%s", to->length > 0 ? " " : "", ceduo_arena_copy(arena, path, n));
     }
@@ -89,9 +89,7 @@ static const char *change_row(struct arena *arena, const char *paths, path_chang
         if (changed)
             append_paths(arena, &all, changed);
     }
-    return strcmp(ceduo_text_string(&all), paths) == 0 ? paths
-           : all.length > 0                            ? ceduo_arena_string(arena, all.bytes)
-                                                       : NULL;
+    return strcmp(ceduo_text_string(&all), paths) == 0 ? paths : all.length > 0 ? ceduo_arena_string(arena, all.bytes) : NULL;
 }
 
 /* Change the paths of all rows. `root`: a scene, or a stand. */
@@ -122,11 +120,11 @@ static const struct node *change_paths(struct arena *arena, const struct node *r
  * one; *star: the first [*]; NULL: none. */
 static const char *find_below_list(const struct node *root, const char *path, const char *list, const char **star)
 {
-    size_t length = strlen(list), pos = 0, at = 0, index, item;
+    size_t length = strlen(list), pos = 0, end = 0, index, item;
     struct path_step step, own;
     *star = NULL;
     for (size_t before = 0; ceduo_path_next(list, length, &pos, &own); before = pos) {
-        if (!ceduo_path_next(path, strlen(path), &at, &step) || step.bracket != own.bracket)
+        if (!ceduo_path_next(path, strlen(path), &end, &step) || step.bracket != own.bracket)
             return NULL;
         bool same = step.n == own.n && memcmp(step.p, own.p, own.n) == 0;
         if (!same && step.bracket && ceduo_path_is(&step, "*")) {
@@ -139,7 +137,7 @@ static const char *find_below_list(const struct node *root, const char *path, co
                 return NULL;
         }
     }
-    return path + at;
+    return path + end;
 }
 
 /* Read the first step of a path below a list. True if it is an item, by index or name; sets its position, and *rest to the text
@@ -187,8 +185,7 @@ static const char *shift_path(struct arena *arena, const char *path, bool only, 
     if (now == position && !removed)
         return path;
     if (!star)
-        return removed ? NULL
-                       : ceduo_arena_format(arena, "%.*s[%zu]%s", (int)(below - path), path, now, rest);
+        return removed ? NULL : ceduo_arena_format(arena, "%.*s[%zu]%s", (int)(below - path), path, now, rest);
     LOCAL_TEXT(all);
     const char *above = ceduo_arena_copy(arena, path, (size_t)(star - path));
     const struct node *items = ceduo_resolve_at(s->before, above);

@@ -175,8 +175,8 @@ const struct field *ceduo_schema_step(const struct object *object, const struct 
 
 /* Return the row of the value at a path of a scene; NULL if the path is no value, or a part of a value. */
 const struct field *ceduo_schema_at(const char *path);
-/* As ceduo_schema_at(), also for slope.materials[NAME].KEY, a fitted ground of the library. Of several paths, the first
- * counts. */
+/* As ceduo_schema_at(), also for slope.materials[NAME].KEY, a fitted ground of the library. Reads the first of several
+ * paths. */
 const struct field *ceduo_schema_fitted(const char *path);
 /* As ceduo_schema_at(), also for a group or a list. */
 const struct field *ceduo_schema_row(const char *path);
