@@ -154,7 +154,7 @@ static const struct field *find_field(struct validator *v, const char *path)
 }
 
 /* Add the places of several paths, each once. Set *field to the row of their key; NULL: no option of them was kept. Return
- * false with the first path in *bad that has no such row, or another key than the paths before it. */
+ * false with the first path in *bad that has no row (*field is NULL), or another key than the paths before it. */
 static bool find_all_places(struct places *p, const char *prefix, const char *paths, const struct field **field,
                             const char **bad)
 {
@@ -170,9 +170,11 @@ static bool find_all_places(struct places *p, const char *prefix, const char *pa
         const struct field *own = find_field(v, path);
         struct places found = {.v = v};
         *bad = path;
-        if (!own || (*field && strcmp(own->key, (*field)->key) != 0))
+        if (own && *field && strcmp(own->key, (*field)->key) != 0)
             return false;
         *field = own;
+        if (!own)
+            return false;
         find_places(&found, path);
         size_t before = p->n;
         for (size_t i = 0; i < found.n; i++) {
