@@ -56,6 +56,7 @@ struct view {
         enum action action;
         const char *word; /* label, marked for translation; NULL ends the list */
     } bar[8];             /* own keys in the bar, by importance */
+    bool (*is_listed)(const struct app *app, enum action action); /* false: not in the bar now; NULL: all are */
 };
 
 #define V(NAME, name, key, word, help) extern const struct view ceduo_view_##name;

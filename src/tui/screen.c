@@ -228,6 +228,23 @@ static void draw_popup_bar(struct app *app)
     }
 }
 
+/* True if the bar may list a common key: some keys act only on a line of a form. */
+static bool is_usable(struct app *app, enum action action)
+{
+    bool needs_form = action == ACTION_EDIT || action == ACTION_ADD || action == ACTION_FIND;
+    return !needs_form || ceduo_app_form(app)->n > 0;
+}
+
+/* True if the bar lists a key as the view's own. */
+static bool is_own(const struct app *app, enum action action)
+{
+    const struct view *view = ceduo_views[app->view];
+    int k = 0;
+    while (view->bar[k].word && view->bar[k].action != action)
+        k++;
+    return view->bar[k].word && (!view->is_listed || view->is_listed(app, action));
+}
+
 /* Draw the view's own keys, then the common ones. The most important keys always fit. */
 static void draw_bar(struct app *app)
 {
@@ -239,16 +256,13 @@ static void draw_bar(struct app *app)
     }
     for (int i = 0; i < ACTION_COUNT; i++)
         space -= ceduo_actions[i].bar == 2 ? bar_width((enum action)i, ceduo_actions[i].help) : 0;
-    for (int k = 0; view->bar[k].word && draw_key(app, &x, view->bar[k].action, view->bar[k].word, &space);)
-        k++;
+    bool fits = true;
+    for (int k = 0; view->bar[k].word && fits; k++)
+        fits = !is_own(app, view->bar[k].action) || draw_key(app, &x, view->bar[k].action, view->bar[k].word, &space);
     for (int rank = 1; rank <= 2; rank++) {
-        for (int i = 0; i < ACTION_COUNT; i++) {
-            bool own = ceduo_actions[i].bar != rank;
-            for (int k = 0; view->bar[k].word; k++)
-                own |= view->bar[k].action == (enum action)i;
-            if (!own)
+        for (int i = 0; i < ACTION_COUNT; i++)
+            if (ceduo_actions[i].bar == rank && !is_own(app, (enum action)i) && is_usable(app, (enum action)i))
                 draw_key(app, &x, (enum action)i, ceduo_actions[i].help, &space);
-        }
         space = app->width;
     }
 }

@@ -417,6 +417,13 @@ static const struct key_binding observed_bindings[] = {KEY(COUNTS, .plain = star
                                                        KEY(STOP, .plain = stop_fit),
                                                        {0}};
 
+/* True unless a key needs a fit and there is none. */
+static bool is_key_listed(const struct app *app, enum action action)
+{
+    bool fitted = ceduo_live_fitted(&app->live);
+    return action == ACTION_EDIT ? fitted : action == ACTION_STOP ? fitted || app->live.fitting : true;
+}
+
 const struct view ceduo_view_observed = {.panes = PANES,
                                          .observed = true,
                                          .build = build_observed,
@@ -424,4 +431,5 @@ const struct view ceduo_view_observed = {.panes = PANES,
                                          .bindings = {observed_bindings, observed_bindings},
                                          .bar = {KEY(ADD, N_("add")), KEY(COUNTS, N_("fit")), KEY(EDIT, N_("apply")),
                                                  KEY(STOP, N_("discard")), KEY(NEXT_PANE, N_("scroll")),
-                                                 KEY(NEXT_OPTION, N_("next option"))}};
+                                                 KEY(NEXT_OPTION, N_("next option"))},
+                                         .is_listed = is_key_listed};

@@ -103,7 +103,7 @@ void ceduo_cells_set_code(struct ceduo_cells *cells, int column, int row, enum c
 
 /* ---- Text ---- */
 
-/* Return the replacement of a character in ASCII. A degree sign becomes a blank: "35o" reads as 350. */
+/* Return the replacement of a character in ASCII. A degree sign becomes a blank, because "35o" reads as 350. */
 static const char *find_ascii(uint32_t code)
 {
     static const struct {
@@ -152,6 +152,8 @@ bool ceduo_is_power(const char *string, const char *digit)
            !(digit[1] && strchr("_.=[", digit[1]) && digit[2] > ' ');
 }
 
+#define DEGREE 0xB0
+
 /* Return the next code point; 0 at the end. */
 static uint32_t next_code(struct reader *reader)
 {
@@ -170,6 +172,8 @@ static uint32_t next_code(struct reader *reader)
         return '?';
     if (reader->charset != CEDUO_CHARSET_ASCII || code < 0x80)
         return code;
+    if (code == DEGREE && *reader->text && strchr(",.;:)", *reader->text)) /* no blank before punctuation */
+        return (uint32_t)*reader->text++;
     reader->pending = find_ascii(code);
     return (uint32_t)*reader->pending++;
 }

@@ -271,7 +271,9 @@ def test_fit_left():
             "key 8 Tab\nwait idle\nkey c Enter Esc\nwait idle\ndump\nkey c Enter\nwait idle\ndump\nkey Esc\nwait idle\ndump\n"
             "key c Enter\nkey 3\nfind rock.diameter_m\nset 0.6\nkey 8 Tab\nwait idle\ndump", "flight.yaml")
         expect_equal(place.text("flight.yaml"), FLIGHT + SEEN)
-    done.has("Fitted.")
+    done.has("Fitted.", "Enter apply", "Esc discard")
+    for screen in (stopped, left, edited):
+        screen.has("c fit", "Enter edit").lacks("Enter apply", "Esc discard")
     for screen in (stopped, left):
         expect("*" not in screen.title and "Fitted." not in screen.body, screen)
     expect_in("fit discarded; the scene is unchanged", left.note)

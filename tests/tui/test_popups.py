@@ -641,6 +641,16 @@ def test_popup_bar():
             expect_in("Enter edit", closed.bar, "closed")
 
 
+def test_bar_without_form():
+    """The bar of a view without a form does not list keys that act on its lines"""
+    for view in "48":
+        for width in (60, 80, 200):
+            screen = fast(f"resize {width} 24\nkey {view}\nwait idle\ndump")[0]
+            for word in ("Enter ", "f find", *["a add"] * (view == "4")):
+                expect(word not in screen.bar, f"{word!r} in the bar of view {view} at {width} columns: {screen.bar}")
+            expect_in("q quit", screen.bar, "the bar")
+
+
 def test_more_in_popups():
     """Help and lists longer than their window show their position and mark more text below and above."""
     for keys in ("?", "p"):
