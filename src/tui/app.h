@@ -54,8 +54,8 @@ struct view {
     void (*after_key)(struct app *app);             /* called after each key; may be NULL */
     struct {
         enum action action;
-        const char *word; /* label, marked for translation; NULL ends the list */
-    } bar[8];             /* own keys in the bar, by importance */
+        const char *word;                                         /* label, marked for translation; NULL ends the list */
+    } bar[8];                                                     /* own keys in the bar, by importance */
     bool (*is_listed)(const struct app *app, enum action action); /* false: not in the bar now; NULL: all are */
 };
 

@@ -26,7 +26,7 @@ static bool set_cell_value(struct app *app, const struct form_cell *cell, const 
     const struct node *node = ceduo_document_node(&app->document, path);
     LOCAL_TEXT(written);
     if (field->type == FIELD_TEXT && strcmp(value, node && node->kind == NODE_SCALAR ? node->text : cell->written) == 0)
-        return true; /* an unchanged text is no edit */
+        return true;      /* an unchanged text is no edit */
     if (value[0] == '\0') /* empty: back to the default */
         return ceduo_app_finish_edit(app, ceduo_document_delete(&app->document, path));
     if (field->type == FIELD_TEXT || field->type == FIELD_FILE)

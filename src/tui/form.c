@@ -312,7 +312,8 @@ bool ceduo_form_search(struct form *form, const char *word)
             const struct form_row *row = &form->rows[i];
             bool found = has_fields(row) && !by_path && line_shows(form, i, word); /* the first cell stands for its line */
             while (has_fields(row) && !found && k < row->n) {
-                found = by_path ? strcasestr(row->cells[k].path, word) != NULL : cell_shows(&row->cells[k], row->columns != NULL, word);
+                found = by_path ? strcasestr(row->cells[k].path, word) != NULL
+                                : cell_shows(&row->cells[k], row->columns != NULL, word);
                 k += !found;
             }
             if (!found)

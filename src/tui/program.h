@@ -11,7 +11,7 @@ bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset 
 
 /* In a window that is too small for the screen, only keys that end the program or the tour without a question act. */
 void ceduo_program_key(struct app *app, int key);
-void ceduo_program_interrupt(struct app *app); /* Ctrl-C: leaves a popup, or quits */
+void ceduo_program_interrupt(struct app *app);               /* Ctrl-C: leaves a popup, or quits */
 void ceduo_program_paste(struct app *app, const char *text); /* into the open input line; otherwise ignored */
 void ceduo_program_click(struct app *app, int x, int y);
 void ceduo_program_wheel(struct app *app, int x, int y, int lines);

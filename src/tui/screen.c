@@ -371,7 +371,7 @@ static void draw_size(struct app *app)
     ceduo_text_format(&text, _("The window (%d x %d) is too small: at least %d x %d is needed."), app->width,
                       app->cells->height, WIDTH_MIN, HEIGHT_MIN + app->cells->height - app->height);
     ceduo_text_format(&text, " %s",
-                      app->tour.step                          ? _("q ends the tour.")
+                      app->tour.step                           ? _("q ends the tour.")
                       : ceduo_document_unsaved(&app->document) ? _("Unsaved changes: enlarge the window to quit.")
                                                                : _("q quits."));
     ceduo_app_draw_wrapped(app, whole, CEDUO_ROLE_WARN, ceduo_text_string(&text), 0);
