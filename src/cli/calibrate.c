@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/language.h"
 #include "base/oom.h"
@@ -93,6 +94,17 @@ static bool prepare_draws(struct pending_file *draws)
     return !device && strncmp(draws->temporary, draws->target, strlen(draws->target)) == 0;
 }
 
+/* True if prepare_draws() is expected to succeed; otherwise set errno. Creates no file. */
+static bool can_write_draws(const char *path)
+{
+    struct stat st;
+    bool device = stat(path, &st) == 0 && !S_ISREG(st.st_mode);
+    if (!ceduo_file_can_write(path))
+        return false;
+    errno = device ? EINVAL : ENAMETOOLONG;
+    return !device && strlen(ceduo_file_name(path)) <= CEDUO_FILE_NAME_MAX;
+}
+
 /* Check before the fit that the first scene and the draws can be written, and that the run does not read the file of the draws. */
 static enum exit_status check_scene(const struct fit_job *j)
 {
@@ -105,12 +117,10 @@ static enum exit_status check_scene(const struct fit_job *j)
                 return EXIT_OUTPUT;
     if (!ceduo_fit_can_apply(&j->files[0], j->inputs, j->parameters_count, &reason))
         return ceduo_usage_error("output", "%s", reason.bytes);
-    struct pending_file trial = {.path = path.bytes, .bytes = "", .wait = true};
-    bool good = prepare_draws(&trial);
-    if (!good)
-        ceduo_print_message(path.bytes, ceduo_error_text(errno));
-    ceduo_file_abort(&trial);
-    return good ? EXIT_DONE : EXIT_OUTPUT;
+    if (can_write_draws(path.bytes))
+        return EXIT_DONE;
+    ceduo_print_message(path.bytes, ceduo_error_text(errno));
+    return EXIT_OUTPUT;
 }
 
 /* ---- reading ---- */

@@ -277,11 +277,11 @@ static bool find_target(struct pending_file *file, mode_t *mode)
 /* Create the temporary file beside the target; a long name is shortened. Return its descriptor; -1 with errno set. */
 static int open_temporary(struct pending_file *file, mode_t mode)
 {
-    static const char mark[] = ".ceduo-tmp-XXXXXX";
+    static const char mark[] = CEDUO_FILE_MARK;
     const char *name = ceduo_file_name(file->target);
     size_t n = strlen(name);
-    if (n > NAME_MAX - sizeof mark)
-        for (n = NAME_MAX - sizeof mark; ceduo_utf8_is_continuation(name[n]); n--)
+    if (n > CEDUO_FILE_NAME_MAX)
+        for (n = CEDUO_FILE_NAME_MAX; ceduo_utf8_is_continuation(name[n]); n--)
             ;
     struct text path = {0};
     ceduo_text_format(&path, "%.*s%s", (int)(name - file->target + (ptrdiff_t)n), file->target, mark);

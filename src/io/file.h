@@ -2,6 +2,7 @@
 #ifndef CEDUO_FILE_H
 #define CEDUO_FILE_H
 
+#include <limits.h>
 #include <stdatomic.h>
 
 #include "base/arena.h"
@@ -37,6 +38,9 @@ bool ceduo_file_write_all(int fd, const char *bytes, size_t n, const atomic_bool
 /* Write a regular file atomically: a temporary file beside it, then a rename. Devices, and the target of a dangling link, are
  * written in place. Return false with errno set. */
 bool ceduo_file_write(const char *path, const char *bytes, size_t n);
+
+#define CEDUO_FILE_MARK     ".ceduo-tmp-XXXXXX"                 /* end of the name of a temporary file */
+#define CEDUO_FILE_NAME_MAX (NAME_MAX - sizeof CEDUO_FILE_MARK) /* bytes; a longer name is shortened before the mark */
 
 /* A temporary file that is written but not renamed. Write several, then rename them all. A device or FIFO is written by
  * ceduo_file_commit(); `bytes` must stay valid until then. */

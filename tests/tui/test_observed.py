@@ -273,7 +273,7 @@ def test_fit_left():
         expect_equal(place.text("flight.yaml"), FLIGHT + SEEN)
     done.has("Fitted.", "Enter apply", "Esc discard")
     for screen in (stopped, left, edited):
-        screen.has("c fit", "Enter edit").lacks("Enter apply", "Esc discard")
+        screen.has("c fit").lacks("Enter apply", "Esc discard")
     for screen in (stopped, left):
         expect("*" not in screen.title and "Fitted." not in screen.body, screen)
     expect_in("fit discarded; the scene is unchanged", left.note)
