@@ -517,6 +517,7 @@ TEST(missing_lists_are_refused)
         EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_OK);
     }
     s->year_first = 24;
+    s->year_last = NAN; /* not given */
     EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_OK);
     s->year_last = 4; /* before the first */
     EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_BAD_ARGUMENT);

@@ -497,7 +497,7 @@ TEST(setting_values_leaks_no_memory)
     def.option = &file.scene.options[0];
     def.rocks_max = 10;
     size_t before = 0, arena = file.arena.bytes;
-    for (int i = 0; i < 100000; i++) {
+    for (int i = 0; i < 200000; i++) {
         assert_true(ceduo_value_set(&per_ha, 50 + i % 100));
         assert_true(ceduo_value_set(&diameter, .5 + 1e-6 * i));
         if (i % 100 != 0)
@@ -505,8 +505,8 @@ TEST(setting_values_leaks_no_memory)
         LOCAL(ceduo_run, run);
         assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
         assert_int_equal(ceduo_run_extend(run, 10), CEDUO_OK);
-        before = i == 50000 ? mallinfo2().uordblks : before; /* from here on the C library caches its free blocks, */
-        if (i >= 50000)
+        before = i == 100000 ? mallinfo2().uordblks : before; /* from here on the C library caches its free blocks, */
+        if (i >= 100000)
             EXPECT(mallinfo2().uordblks, <=, before + 4096); /* which it counts as used */
     }
     assert_int_equal(file.arena.bytes, arena);
