@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--calibrate: fitted values, sentences about the fit, and errors. Stops come from ceduo itself at known values."""
+import json
 import os
 import re
 import signal
@@ -503,6 +504,21 @@ def test_draws_of_many_places():
         expect_equal(ceduo("--check", f.write("s.yaml", quarry(slope=slope, uncertainty=uncertainty))).err, "")
 
 
+def test_several_paths():
+    """Several paths are one value, which both places get"""
+    paths = "slope.segments[0].rt slope.segments[1].rt"
+    slope = {"vertices_m": [[0, 60], [15, 42], [40, 20], [200, 0]], "segments": [GROUND, GROUND, GROUND]}
+    with Folder() as f:
+        path = f.write("s.yaml", quarry(slope=slope))
+        r = ceduo("-f", "json", "-n", 50, "--calibrate", f"{paths}=0.7:0.98", path)
+        expect_equal(r.status, DONE, r)
+        parameters = json.loads(r.out)["parameters"]
+        expect_equal([p["path"] for p in parameters], [paths])
+        page = good("-n", 50, "--calibrate", f"{paths}=0.7:0.98", "-o", f.path / "fitted.yaml", path).out
+        expect(re.search(r"Rt .* 0\.700.0\.980", page), page)
+        expect_equal((f.path / "fitted.draws.csv").read_text().splitlines()[0], paths)
+
+
 def test_refused():
     """Values that cannot be fitted"""
     with Folder() as f:
@@ -512,6 +528,7 @@ def test_refused():
         checks = f.write("c.yaml", quarry({"stops": {"x_m": STOPS, "use": "check"}}))
         for what, arguments in (("is not PATH=LO:HI", [f"{RT}", path]), ("the range 0.9:0.7 is empty", [f"{RT}=0.9:0.7", path]),
                                 ("'slope.colour' is not a number of these scenes", ["slope.colour=0:1", path]),
+                                ("' ' is not a number of these scenes", [" =0:1", path]),
                                 ("'simulation.law' is not a number of these scenes", ["simulation.law=0:1", path]),
                                 ("'simulation.seed' is not a number of these scenes", ["simulation.seed=1:9", path]),
                                 ("'observed[*].n' is not a number of these scenes", ["observed[*].n=1:9", path]),

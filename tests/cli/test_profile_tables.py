@@ -218,6 +218,7 @@ def test_map():
             expect_refused(f, "p.csv", f'wkt\n"{wkt}"\n', [f":2:1: {words}"])
         expect_read(f, "p.csv", 'layer;geom\nb;LINESTRING Z (0 0 1, 9 0 0)\na;"LINESTRING ZM (0 0 90 7, 30 40 60 8, 60 80 0 9)"\n',
                     [[0, 90], [50, 60], [100, 0]], layer="a")
+        expect_read(f, "p.csv", 'wkt\n"SRID=32632; (0 0 412.5,12.5 0 398.2,40 0 371,75.25 0 345.9,118 0 330.1,160 0 326)"\n', POINTS)
         expect_read(f, "p.csv", "SRID=32632;LINESTRINGZ(0 0 412.5,12.5 0 398.2,40 0 371,75.25 0 345.9,118 0 330.1,160 0 326)\n", POINTS)
         expect_read(f, "p.csv", 'name;geom\nb;MULTILINESTRING Z ((0 0 1, 9 0 0))\na;"MULTILINESTRING Z ((0 0 412.5,12.5 0 398.2,40 0 371,75.25 0 345.9,'
                     '118 0 330.1,160 0 326))"\n', POINTS, layer="a")

@@ -61,7 +61,7 @@ def test_terminal():
                                    lambda t, _: t.count(b" left") > 3 and b"rows.csv:5" in t, "stderr")
         shown = text.replace(b"\r\n", b"\n").decode()
         expect(re.search(r"\r\d+ of 999 scenes, \d+ (s|min) left *\r", shown), shown)
-        expect(re.search(r"(^|\r)[^\r\n]*rows.csv:5: .*'x' is not a number\n", shown) and "left" not in
+        expect(re.search(r"(^|[\r\n])[^\r\n]*rows.csv:5: .*'x' is not a number\n", shown) and "left" not in
                re.search(r"[^\r\n]*rows.csv:5: ", shown)[0], "nothing stands before a message", shown)
         text, status = on_terminal(["--batch", "-q", "-n", "1000000", "-j", "1", "-o", "/dev/null", PAPER],
                                    lambda t, s: t or s > 1.6, "stderr")
