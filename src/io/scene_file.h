@@ -40,7 +40,8 @@ bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struc
 bool ceduo_scene_load_text(struct scene_file *file, const char *name, const char *text, struct problems *problems);
 void ceduo_scene_release(struct scene_file *file);
 
-/* Return the bit of the list or slope in which a path begins; 0: another part of the scene. */
+/* Return a bit for the part of the scene that a path begins with: controls, release, slope, or forest and options. 0: another
+ * part, which has no items. */
 unsigned ceduo_scene_list(const char *path);
 
 /* Set `file->scene` from `file->root`. */
@@ -80,6 +81,9 @@ bool ceduo_inputs_have(const struct ceduo_input *inputs, size_t n, const char *p
 
 /* True if two inputs have a place in common. */
 bool ceduo_input_overlaps(const struct ceduo_input *a, const struct ceduo_input *b);
+
+/* True if an input is a ground of the library: the scene has rows of `materials`, or talus is assumed. */
+bool ceduo_input_is_library_ground(const struct ceduo_scene *scene, const struct ceduo_input *input);
 
 /* Return the belt of a place, forest[0].stand… or options[2].forest[0].stand…; NULL: none. */
 const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *scene, const char *place);

@@ -42,6 +42,13 @@ bool ceduo_inputs_have(const struct ceduo_input *inputs, size_t n, const char *p
     return false;
 }
 
+bool ceduo_input_is_library_ground(const struct ceduo_scene *scene, const struct ceduo_input *input)
+{
+    static const char segments[] = "slope.segments[";
+    return scene->slope.segments_given == 0 && input->places_count > 0 &&
+           strncmp(input->places[0], segments, sizeof segments - 1) == 0;
+}
+
 bool ceduo_input_overlaps(const struct ceduo_input *a, const struct ceduo_input *b)
 {
     for (size_t i = 0; i < a->places_count; i++)

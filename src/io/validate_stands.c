@@ -45,14 +45,8 @@ static bool is_written(struct validator *v, const char *path, const char *key)
 /* Warn if a mapping has no `key`, the number without which its other values have no effect. */
 static void warn_unused(struct validator *v, const char *path, const char *group, const char *key)
 {
-    const char *whole = ceduo_asprintf(v, "%s.%s", path, group), *file_path;
-    size_t used;
-    const struct node *node = ceduo_resolve_walk(v->root, whole, &file_path, &used);
-    if (whole[used] || ceduo_node_get(node, key))
-        return;
-    struct problem_place place = ceduo_node_place(node, file_path);
-    place.unusual = true;
-    ceduo_problem_at(v->problems, place, _("'%s' is missing, so the other values here have no effect; add it"), key);
+    if (is_written(v, path, group) && !is_written(v, ceduo_asprintf(v, "%s.%s", path, group), key))
+        ceduo_warn(v, path, group, _("'%s' is missing, so the other values here have no effect; add it"), key);
 }
 
 /* Check stumps, logs and groups of trees, which have no defaults. */

@@ -75,8 +75,9 @@ bool ceduo_document_duplicate(struct document *document, const char *list, size_
  * `cut_years`: with their cut years. */
 void ceduo_document_append_belts(const struct document *document, const char *stand, bool cut_years, struct text *yaml);
 
-/* Append an option with those belts, without cut years if the stand has no cutting, or a copy of option `index`; a duplicate name gets a number. A scene without options
- * first gets the option "current". The paths of the changes are relative to the option: "forest[0].cut_year". */
+/* Append an option with those belts, without cut years if the stand has no cutting, or a copy of option `index`; a duplicate
+ * name gets a number. A scene without options first gets the option "current". The paths of the changes are relative to the
+ * option: "forest[0].cut_year". */
 bool ceduo_document_add_option(struct document *document, const char *stand, const char *name);
 bool ceduo_document_vary_option(struct document *document, size_t index, const char *name, const struct changes *changes);
 
@@ -84,7 +85,8 @@ bool ceduo_document_vary_option(struct document *document, size_t index, const c
 bool ceduo_document_rename_option(struct document *document, size_t index, const char *name);
 
 /* As ceduo_document_set(), but remove conflicting values: another size or mass of the rock, roughness or number of shoots. A
- * new shape keeps the volume. A belt with a new stand loses a cut year that this stand cannot have. Neighbours follow a border, assumed heights their diameter. Append these to `notes`. */
+ * new shape keeps the volume. A belt with a new stand loses a cut year that this stand cannot have. Neighbours follow a border,
+ * assumed heights their diameter. Append these to `notes`. */
 bool ceduo_document_set_and_follow(struct document *document, const char *path, const char *value, struct text *notes);
 
 /* Insert a vertex ([x, z]) into segment `index`; both parts keep its ground. `split_ground`: give each segment its own

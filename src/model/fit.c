@@ -17,13 +17,6 @@
 #define GROUND   "slope.materials["
 #define SEGMENTS "slope.segments["
 
-/* True if an input is a ground of the library: the scene has rows of `materials`, or talus is assumed. */
-static bool is_library_ground(const struct scene_file *file, const struct ceduo_input *input)
-{
-    return file->scene.slope.segments_given == 0 && input->places_count > 0 &&
-           strncmp(input->places[0], SEGMENTS, sizeof SEGMENTS - 1) == 0;
-}
-
 /* Return the path that sets a ground of the library in its rows of `materials`. NULL: rows have no such key, or the ground is a
  * single stretch. */
 static const char *find_rows_path(struct arena *arena, const struct scene_file *file, const struct ceduo_input *input)
@@ -51,7 +44,7 @@ static void offer_value(const struct scene_file *file, struct fit_request *reque
     if (exists &&
         strcmp(field->key, "mu") == 0) /* mu acts through the shape of the rock: only rocks of two shapes determine it */
         exists = ceduo_calibration_identifies_mu(&scene, 1);
-    exists = exists && (!is_library_ground(&own, &input) || find_rows_path(&own.arena, &own, &input));
+    exists = exists && (!ceduo_input_is_library_ground(&own.scene, &input) || find_rows_path(&own.arena, &own, &input));
     ceduo_arena_free(&own.arena);
     if (!exists || request->n == CEDUO_CALIBRATION_MAX || strlen(path) >= FIT_PATH_MAX || !(lo < hi))
         return;
@@ -208,7 +201,7 @@ bool ceduo_fit_can_apply(const struct scene_file *file, const struct ceduo_input
     LOCAL_ARENA(arena);
     const char *table = ceduo_node_text(ceduo_node_get(file->root, "uncertainty"), "draws");
     for (size_t i = 0; i < n; i++)
-        if (is_library_ground(file, &inputs[i]) && !find_rows_path(&arena, file, &inputs[i])) {
+        if (ceduo_input_is_library_ground(&file->scene, &inputs[i]) && !find_rows_path(&arena, file, &inputs[i])) {
             ceduo_text_format(
                 reason,
                 _("'%s' cannot be written into 'materials'; fit slope.materials[NAME].KEY, or give the ground as 'segments'"),
@@ -469,7 +462,7 @@ bool ceduo_apply_fit(struct document *d, const struct fit_values *fit)
     struct changes values = {.document = d};
     for (size_t i = 0; i < fit->answer->parameters_count; i++) {
         const char *best = ceduo_arena_string(w.arena, ROUNDTRIP(fit->answer->parameters[i].best));
-        if (is_library_ground(&d->file, &fit->inputs[i]))
+        if (ceduo_input_is_library_ground(&d->file.scene, &fit->inputs[i]))
             set_rows(&w, &values, &fit->inputs[i], best);
         else
             set_places(&w, &values, &fit->inputs[i], best);

@@ -113,7 +113,8 @@ struct job_request {
     const struct fit_request *fit; /* restarts if it is interrupted */
 };
 
-/* A scene with the same nodes, by ceduo_jobs_nodes_key(), is computed once. Figures and years go first unless they need more rocks. */
+/* A scene with the same nodes, by ceduo_jobs_nodes_key(), is computed once. Figures and years go first unless they need more
+ * rocks. */
 bool ceduo_jobs_request(struct jobs *jobs, const struct job_request *request);
 
 /* Stop a search or fit and drop its result. */

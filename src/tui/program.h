@@ -21,9 +21,9 @@ bool ceduo_program_poll(struct app *app); /* take the results of the jobs; retur
 void ceduo_tour_start(struct app *app, const char *path);
 
 /* True if a key has an effect in the tour. Handle it, and return the key that the program handles; K_NONE: none. */
-bool ceduo_tour_is_end(int key); /* true if a key ends the tour */
 bool ceduo_tour_accepts(const struct app *app, int key);
 int ceduo_tour_key(struct app *app, int key);
+bool ceduo_tour_is_end(int key); /* true if a key ends the tour */
 
 /* Run a script without a terminal, one command per line (see ceduo-terminal(7)). Errors go to standard error. */
 enum script_end { SCRIPT_DONE, SCRIPT_WRONG, SCRIPT_UNREADABLE, SCRIPT_UNWRITTEN };

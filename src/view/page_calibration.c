@@ -10,9 +10,8 @@
 #include "study/observe.h"
 #include "study/predict.h"
 
-#define CORRELATED   0.7 /* correlation from which a pair is reported */
-#define GROUND_PATH  "slope.materials["
-#define SEGMENT_PATH "slope.segments["
+#define CORRELATED  0.7 /* correlation from which a pair is reported */
+#define GROUND_PATH "slope.materials["
 
 void ceduo_calibration_name(struct text *text, const char *path)
 {
@@ -89,7 +88,7 @@ void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration
 static void append_head(struct text *text, const struct scene_file *file, const struct ceduo_input *input)
 {
     LOCAL_TEXT(places);
-    if (file->scene.slope.segments_given == 0 && strncmp(input->places[0], SEGMENT_PATH, sizeof SEGMENT_PATH - 1) == 0)
+    if (ceduo_input_is_library_ground(&file->scene, input))
         ceduo_text_append(&places, input->path);
     else
         ceduo_text_join(&places, input->places, input->places_count, " ");

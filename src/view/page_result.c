@@ -626,8 +626,7 @@ static void add_full_page(struct ceduo_page *page, const struct ceduo_report *re
     ceduo_page_question(page, report);
     ceduo_page_answer(page, report);
     ceduo_page_certainty(page, report);
-    if (report->uncertainty && report->uncertainty->answer)
-        ceduo_uncertainty_warn_outside(report->uncertainty, ceduo_page_warn, page);
+    ceduo_uncertainty_warn_outside(report->uncertainty, ceduo_page_warn, page);
     ceduo_page_over_time(page, report);
     ceduo_page_fence_answer(page, report, false);
     if (scene->options_count > 1) /* shared by all options */

@@ -49,8 +49,7 @@ static void collect_notes(struct ceduo_page *notes, const struct ceduo_report *r
 {
     const struct ceduo_result *r = report->result;
     size_t n = r->scene->options_count;
-    if (report->uncertainty && report->uncertainty->answer)
-        ceduo_uncertainty_warn_outside(report->uncertainty, ceduo_page_warn_once, notes);
+    ceduo_uncertainty_warn_outside(report->uncertainty, ceduo_page_warn_once, notes);
     ceduo_words_thin_stems(r, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_rules(notes, r, i, false);

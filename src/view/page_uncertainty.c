@@ -125,7 +125,7 @@ static bool is_outside(const struct ceduo_input *input, double value)
 
 void ceduo_uncertainty_warn_outside(const struct ceduo_uncertainty_report *r, ceduo_sentence_sink *sink, void *context)
 {
-    for (size_t i = 0; i < r->inputs->n; i++) {
+    for (size_t i = 0; r && r->answer && i < r->inputs->n; i++) {
         const struct ceduo_input *input = &r->inputs->items[i];
         struct value v;
         size_t k = 0;

@@ -80,8 +80,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     const struct ceduo_page_block *last = page->last;
     size_t warnings = 0;
     ceduo_words_warn_no_answer(r, ceduo_page_warn, page);
-    if (has_answer(pane))
-        ceduo_uncertainty_warn_outside(pane->report->uncertainty, ceduo_page_warn, page);
+    ceduo_uncertainty_warn_outside(pane->report->uncertainty, ceduo_page_warn, page);
     ceduo_page_stand_warnings(page, r, pane->option);
     ceduo_words_run_warnings(r, &pane->report->remarks, ceduo_page_warn, page);
     ceduo_page_stand_rules(page, r, pane->option, true);
@@ -141,8 +140,7 @@ void ceduo_pane_message(struct ceduo_page *page, const struct ceduo_pane *pane)
         if (!has_rotation(pane)) /* otherwise the energy law is one of the uncertain inputs */
             ceduo_words_rank_reversals(r, v, ceduo_page_note, page);
     }
-    if (has_answer(pane))
-        ceduo_uncertainty_warn_outside(pane->report->uncertainty, ceduo_page_note, page);
+    ceduo_uncertainty_warn_outside(pane->report->uncertainty, ceduo_page_note, page);
     ceduo_words_windows(r->scene, ceduo_page_note, page);
     ceduo_words_thin_stems(r, ceduo_page_note, page);
     if (v->wooded && !v->accepted)

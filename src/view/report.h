@@ -54,7 +54,8 @@ void ceduo_uncertainty_input_name(struct text *text, const struct ceduo_uncertai
 double ceduo_uncertainty_input_value(const struct ceduo_uncertainty_report *report, size_t group, int end, const char **word);
 void ceduo_uncertainty_input_end(struct text *text, const struct ceduo_uncertainty_report *report, size_t group, int end);
 
-/* Report a warning for each input whose value in the scene is outside its range. */
+/* Report a warning for each input whose value in the scene is outside its range. Nothing without an answer; `report` may be
+ * NULL. */
 void ceduo_uncertainty_warn_outside(const struct ceduo_uncertainty_report *report, ceduo_sentence_sink *sink, void *context);
 
 /* Return what measures an input, marked for translation; NULL: unknown. */
